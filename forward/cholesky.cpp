@@ -1,0 +1,131 @@
+#include "forward/cholesky.hpp"
+
+#include <cholmod.h>
+
+#include <cstring>
+#include <new>
+
+// OpenBLAS would otherwise start a thread a core in every worker.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+namespace genio {
+
+ReducedStiffness::ReducedStiffness(const BlockPattern& pattern, const DofMap& dofs) {
+  const int n = dofs.unknowns();
+  const size_t count = size_t(9) * pattern.blocks();
+  target_.assign(count, -1);
+  twice_.assign(count, false);
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto visit = [&](auto&& act) {
+    for (int a = 0; a < pattern.nodes(); ++a)
+      for (int s = pattern.row_start(a); s < pattern.row_start(a + 1); ++s)
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) {
+            const int b = pattern.column(s);
+            const int row = dofs.unknown(3 * a + i), column = dofs.unknown(3 * b + j);
+            if (row < 0 || column < 0) continue;
+            if (a == b && column > row) continue;  // symmetric block: keep one half
+            act(size_t(9) * s + 3 * i + j, std::max(row, column), std::min(row, column),
+                a != b && row == column);
+          }
+  };
+  visit([&](size_t, int row, int column, bool) { entries.emplace_back(row, column, 0.0); });
+  matrix_.resize(n, n);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  matrix_.makeCompressed();
+  visit([&](size_t entry, int row, int column, bool twice) {
+    const int* first = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
+    const int* last = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
+    target_[entry] = int(std::lower_bound(first, last, row) - matrix_.innerIndexPtr());
+    twice_[entry] = twice;
+  });
+}
+
+void ReducedStiffness::assign(const Stiffness& k) {
+  double* values = matrix_.valuePtr();
+  std::fill(values, values + matrix_.nonZeros(), 0.0);
+  const double* blocks = k.block(0);
+  for (size_t i = 0; i < target_.size(); ++i)
+    if (target_[i] >= 0) values[target_[i]] += twice_[i] ? 2 * blocks[i] : blocks[i];
+}
+
+struct Cholesky::Impl {
+  mutable cholmod_common common;
+  cholmod_factor* factor = nullptr;
+
+  static cholmod_sparse view(const Eigen::SparseMatrix<double>& m) {
+    cholmod_sparse s{};
+    s.nrow = s.ncol = size_t(m.rows());
+    s.nzmax = size_t(m.nonZeros());
+    s.p = const_cast<int*>(m.outerIndexPtr());
+    s.i = const_cast<int*>(m.innerIndexPtr());
+    s.x = const_cast<double*>(m.valuePtr());
+    s.stype = -1;
+    s.itype = CHOLMOD_INT;
+    s.xtype = CHOLMOD_REAL;
+    s.dtype = CHOLMOD_DOUBLE;
+    s.sorted = s.packed = 1;
+    return s;
+  }
+};
+
+Cholesky::Cholesky(const ReducedStiffness& k) : impl_(std::make_unique<Impl>()) {
+  if (openblas_set_num_threads) openblas_set_num_threads(1);
+  cholmod_common& c = impl_->common;
+  cholmod_start(&c);
+  c.print = 0;
+  c.error_handler = nullptr;
+#ifdef GENIO_SUPERNODAL
+  c.supernodal = CHOLMOD_SUPERNODAL;
+#else
+  c.supernodal = CHOLMOD_SIMPLICIAL;
+#endif
+  c.final_ll = 1;
+  c.quick_return_if_not_posdef = 1;
+  cholmod_sparse s = Impl::view(k.lower());
+  impl_->factor = cholmod_analyze(&s, &c);
+  if (!impl_->factor) throw std::bad_alloc();
+}
+
+Cholesky::~Cholesky() {
+  cholmod_free_factor(&impl_->factor, &impl_->common);
+  cholmod_finish(&impl_->common);
+}
+
+bool Cholesky::factorize(const ReducedStiffness& k, double shift) {
+  cholmod_sparse s = Impl::view(k.lower());
+  double beta[2] = {shift, 0};
+  ++factorizations_;
+  cholmod_factorize_p(&s, beta, nullptr, 0, impl_->factor, &impl_->common);
+  valid_ = impl_->common.status == CHOLMOD_OK &&
+           impl_->factor->minor == impl_->factor->n;
+  return valid_;
+}
+
+Vector Cholesky::solve(const Vector& right_hand_side) const {
+  Vector x(right_hand_side.size());
+  solve(right_hand_side.data(), x.data(), 1);
+  return x;
+}
+
+Matrix Cholesky::solve(const Matrix& right_hand_sides) const {
+  Matrix x(right_hand_sides.rows(), right_hand_sides.cols());
+  solve(right_hand_sides.data(), x.data(), x.cols());
+  return x;
+}
+
+void Cholesky::solve(const double* right, double* solution, Eigen::Index columns) const {
+  cholmod_dense b{};
+  b.nrow = b.d = impl_->factor->n;
+  b.ncol = size_t(columns);
+  b.nzmax = b.nrow * b.ncol;
+  b.x = const_cast<double*>(right);
+  b.xtype = CHOLMOD_REAL;
+  b.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense* x = cholmod_solve(CHOLMOD_A, impl_->factor, &b, &impl_->common);
+  if (!x) throw std::bad_alloc();
+  std::copy_n(static_cast<double*>(x->x), b.nzmax, solution);
+  cholmod_free_dense(&x, &impl_->common);
+}
+
+}  // namespace genio

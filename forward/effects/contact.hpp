@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <memory>
+
+#include "forward/distance_field.hpp"
+#include "forward/effects/effect.hpp"
+
+namespace genio {
+
+/// A surface node that may touch.
+struct ContactNode {
+  int node;
+  double area;       ///< surface it stands for [m^2]
+  double clearance;  ///< subtracted from the distance: below 0 where the node overlaps at rest [m]
+};
+
+/// Penalty contact with a rigid surface.
+///
+/// E = sum_a A_a k phi(g_a), g_a = distance(x_a) - clearance_a, phi(g) = 0 for g >= 0. The spring
+/// stiffens over the first `soft_depth` (phi'' rises linearly from 0 to 1) and is linear beyond,
+/// so force and stiffness are continuous.
+/// Parameter: stiffness k [Pa/m], pressure per depth.
+class Contact final : public Effect {
+ public:
+  static constexpr double soft_depth = 1e-5;  ///< [m]
+
+  Contact(std::string name, std::shared_ptr<const DistanceField> field,
+          std::vector<ContactNode> nodes, double stiffness);
+
+  std::string_view name() const override { return name_; }
+  std::span<const ParameterInfo> parameters() const override { return info_; }
+  double energy(const Positions& x, EffectParameters p) const override;
+  void add_force(const Positions& x, EffectParameters p, Forces& f) const override;
+  void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const override;
+  /// The surface's curvature enters with the force that the linearisation at `previous` predicted
+  /// for x: a straight step overshoots, and the force of its deep penetration is no guide.
+  void add_step_stiffness(const Positions& x, const Positions& previous, EffectParameters p,
+                          Stiffness& k) const override;
+  void add_force_derivative(const Positions& x, EffectParameters p, int k,
+                            Forces& df) const override;
+  /// No node goes deeper than `reach` in one step, unless it is deeper already.
+  double step_limit(const Positions& x, const Positions& along) const override;
+  /// Deepest penetration in the shape `x` beyond the overlap at rest [m], >= 0.
+  double max_penetration(const Positions& x) const;
+
+ private:
+  double gap(const Positions& x, const ContactNode& c) const;
+
+  std::string name_;
+  std::shared_ptr<const DistanceField> field_;
+  std::vector<ContactNode> nodes_;
+  std::array<ParameterInfo, 1> info_;
+};
+
+}  // namespace genio

@@ -1,0 +1,63 @@
+#pragma once
+// One summand of the potential energy. The whole model is a sum of these.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "forward/stiffness.hpp"
+#include "forward/types.hpp"
+
+namespace genio {
+
+/// What an effect lets you vary.
+struct ParameterInfo {
+  std::string name;    ///< "GGP_L", "a10", "z"
+  std::string unit;    ///< "N", "Pa", "m/s^2"
+  double value = 0;    ///< value in the model as read
+  double lower = 0;    ///< bounds
+  double upper = 0;
+  double absent = 0;   ///< value at which what it stands for vanishes
+  bool load = false;   ///< drives the shape away from rest; continuation brings it up from absent
+  bool penalty = false;  ///< enforces a constraint; a far solve starts with a softer one
+};
+
+/// Values of one effect's parameters, in the order of Effect::parameters().
+using EffectParameters = std::span<const double>;
+
+/// Energy, force and stiffness of one effect, and how its force changes with its parameters.
+/// Const and without scratch: one object serves any number of threads.
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  virtual std::string_view name() const = 0;
+  virtual std::span<const ParameterInfo> parameters() const = 0;
+
+  /// Potential energy [J]; +infinity where tissue would be turned inside out.
+  virtual double energy(const Positions& x, EffectParameters p) const = 0;
+  /// Adds -dE/dx [N]. Only called where the energy is finite.
+  virtual void add_force(const Positions& x, EffectParameters p, Forces& f) const = 0;
+  /// Adds d2E/dx2 [N/m].
+  virtual void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const = 0;
+  /// Adds the stiffness a Newton step from `x` should use when `x` was itself reached by a step
+  /// from `previous`. Differs from add_stiffness only where a stiff constraint makes the force at
+  /// x a poor guess of the force after the step; equal to it when both shapes are the same.
+  virtual void add_step_stiffness(const Positions& x, const Positions& /*previous*/,
+                                  EffectParameters p, Stiffness& k) const {
+    add_stiffness(x, p, k);
+  }
+  /// Adds the derivative of the force with respect to parameter k [N per unit].
+  virtual void add_force_derivative(const Positions& x, EffectParameters p, int k,
+                                    Forces& df) const = 0;
+  /// Largest fraction in (0, 1] of the step `along` from x over which the linearisation at x is
+  /// still some guide.
+  virtual double step_limit(const Positions& /*x*/, const Positions& /*along*/) const {
+    return 1.0;
+  }
+  /// Node pairs this effect couples beyond those that share an element.
+  virtual std::vector<std::pair<int, int>> couplings() const { return {}; }
+};
+
+}  // namespace genio

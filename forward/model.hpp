@@ -1,0 +1,99 @@
+#pragma once
+// A tongue: mesh, supports, surfaces and the effects whose energies add up. Immutable once built.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forward/effects/effect.hpp"
+#include "forward/fibres.hpp"
+#include "forward/mesh.hpp"
+#include "forward/stiffness.hpp"
+#include "forward/supports.hpp"
+#include "forward/triangle_surface.hpp"
+
+namespace genio {
+
+/// Values of all parameters of all effects, in the order of Model::parameters.
+using Parameters = Eigen::VectorXd;
+
+/// A parameter and where it lives.
+struct ParameterSlot {
+  int effect;         ///< index into Model::effects
+  int index;          ///< index into that effect's parameters
+  std::string name;   ///< "muscles.GGP_L", "gravity.z"
+  ParameterInfo info;
+};
+
+struct Landmarks {
+  int tip = -1, dorsum = -1, root = -1;  ///< node numbers, 0-based
+};
+
+struct Model {
+  std::string name;
+  HexMesh mesh;
+  std::vector<Support> supports;  ///< one a node
+  std::vector<Muscle> muscles;
+  Landmarks landmarks;
+  /// Nodes of the tongue's midsagittal surface line, from the floor of the mouth below the tip
+  /// over tip and dorsum to the root.
+  std::vector<int> midsagittal;
+  std::optional<TriangleSurface> palate, jaw, hyoid;
+  std::vector<std::shared_ptr<const Effect>> effects;
+
+  // Derived by finish():
+  Positions rest;                         ///< [m]
+  std::vector<Quad> surface;              ///< boundary faces
+  DofMap dofs;
+  BlockPattern pattern;
+  std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another
+  std::vector<int> first_parameter;       ///< of each effect
+
+  /// Fills the derived members; call once after the others are set.
+  void finish();
+};
+
+/// Parameter values as the model file states them; muscle commands 0.
+Parameters default_parameters(const Model& model);
+
+/// Index of "effect.parameter"; throws InputError that suggests the nearest name.
+int parameter_index(const Model& model, const std::string& name);
+
+/// Parameter indices a command name drives: "GGP" gives GGP_L and GGP_R, "GGP_L" itself.
+/// Throws InputError that suggests the nearest name.
+std::vector<int> command_parameters(const Model& model, const std::string& name);
+
+/// Sets a command [N]; a bilateral name shares it over both sides. Throws InputError when it is
+/// not finite, negative or above the muscle's maximum.
+void set_command(const Model& model, const std::string& name, double newtons, Parameters& p);
+
+/// Sets "effect.parameter"; throws InputError when unknown or out of bounds.
+void set_parameter(const Model& model, const std::string& name, double value, Parameters& p);
+
+/// Effect by name; nullptr when the model has none.
+const Effect* find_effect(const Model& model, std::string_view name);
+
+/// The values of one effect within `p`.
+EffectParameters effect_parameters(const Model& model, const Parameters& p, int effect);
+
+/// Total potential energy [J]; +infinity for inverted tissue.
+double energy(const Model& model, const Positions& x, const Parameters& p);
+/// Total nodal forces [N].
+Forces force(const Model& model, const Positions& x, const Parameters& p);
+/// Total stiffness into `k` (overwritten) [N/m].
+void stiffness(const Model& model, const Positions& x, const Parameters& p, Stiffness& k);
+/// Total stiffness for a Newton step, see Effect::add_step_stiffness.
+void step_stiffness(const Model& model, const Positions& x, const Positions& previous,
+                    const Parameters& p, Stiffness& k);
+/// Smallest of the effects' step limits.
+double step_limit(const Model& model, const Positions& x, const Positions& along);
+/// dF/dp_k as nodal forces, for each of the given parameters: 3 n x count [N per unit].
+Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
+                         std::span<const int> parameters);
+
+/// Deepest penetration of any surface [m].
+double max_penetration(const Model& model, const Positions& x);
+
+}  // namespace genio

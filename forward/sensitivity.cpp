@@ -1,0 +1,20 @@
+#include "forward/sensitivity.hpp"
+
+namespace genio {
+
+Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
+                   std::span<const int> parameters, Workspace& ws) {
+  stiffness(model, equilibrium.x, equilibrium.parameters, ws.stiffness);
+  ws.reduced.assign(ws.stiffness);
+  if (!ws.cholesky.factorize(ws.reduced)) return {};
+  const Matrix df =
+      force_derivatives(model, equilibrium.x, equilibrium.parameters, parameters);
+  Matrix right(model.dofs.unknowns(), df.cols());
+  for (Eigen::Index c = 0; c < df.cols(); ++c) right.col(c) = model.dofs.reduce(df.col(c));
+  const Matrix solved = ws.cholesky.solve(right);
+  Matrix result(df.rows(), df.cols());
+  for (Eigen::Index c = 0; c < df.cols(); ++c) result.col(c) = model.dofs.expand(solved.col(c));
+  return result;
+}
+
+}  // namespace genio

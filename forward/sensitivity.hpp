@@ -1,0 +1,14 @@
+#pragma once
+#include <span>
+
+#include "forward/equilibrium.hpp"
+
+namespace genio {
+
+/// dx/dp at an equilibrium for each of the given parameters: 3 n x count [m per unit].
+/// K dx/dp_k = dF/dp_k with the tangent factorised at the equilibrium, one back-substitution each.
+/// Empty when the tangent is not positive definite there (an unstable equilibrium).
+Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
+                   std::span<const int> parameters, Workspace& ws);
+
+}  // namespace genio

@@ -1,0 +1,31 @@
+#include "forward/supports.hpp"
+
+namespace genio {
+
+DofMap::DofMap(const std::vector<Support>& supports) : index_(3 * supports.size(), -1) {
+  for (size_t a = 0; a < supports.size(); ++a)
+    if (supports[a] == Support::free)
+      for (int i = 0; i < 3; ++i) index_[3 * a + i] = unknowns_++;
+  int body = -1;
+  for (size_t a = 0; a < supports.size(); ++a) {
+    if (supports[a] != Support::horizontal) continue;
+    if (body < 0) body = unknowns_, unknowns_ += 2;
+    for (int i = 0; i < 2; ++i) index_[3 * a + i] = body + i;
+  }
+}
+
+Vector DofMap::expand(const Vector& unknowns) const {
+  Vector nodal = Vector::Zero(Eigen::Index(index_.size()));
+  for (size_t i = 0; i < index_.size(); ++i)
+    if (index_[i] >= 0) nodal[Eigen::Index(i)] = unknowns[index_[i]];
+  return nodal;
+}
+
+Vector DofMap::reduce(const Vector& nodal) const {
+  Vector sum = Vector::Zero(unknowns_);
+  for (size_t i = 0; i < index_.size(); ++i)
+    if (index_[i] >= 0) sum[index_[i]] += nodal[Eigen::Index(i)];
+  return sum;
+}
+
+}  // namespace genio

@@ -1,0 +1,35 @@
+#pragma once
+// Which nodal displacements are free, and which move together.
+
+#include <vector>
+
+#include "forward/types.hpp"
+
+namespace genio {
+
+enum class Support : int {
+  free = 0,
+  fixed = 1,       ///< held in place: the jaw insertions
+  horizontal = 2,  ///< one rigid body free to translate in x and y: the hyoid
+};
+
+/// Maps the 3 n nodal displacements to the unknowns of the problem.
+class DofMap {
+ public:
+  DofMap() = default;
+  explicit DofMap(const std::vector<Support>& supports);
+
+  int unknowns() const { return unknowns_; }
+  /// Unknown that moves displacement component `i` of 3 n; -1 where it is held.
+  int unknown(int i) const { return index_[i]; }
+  /// Displacements of all nodes from the unknowns.
+  Vector expand(const Vector& unknowns) const;
+  /// Sum of nodal forces over each unknown (the transpose of expand).
+  Vector reduce(const Vector& nodal) const;
+
+ private:
+  std::vector<int> index_;
+  int unknowns_ = 0;
+};
+
+}  // namespace genio
