@@ -5,8 +5,10 @@
 #include <cstring>
 #include <new>
 
-// OpenBLAS would otherwise start a thread a core in every worker.
+// OpenBLAS and CHOLMOD's OpenMP loops would otherwise start a thread a core in every worker, and
+// spin in each of the many small supernodes.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+extern "C" void omp_set_num_threads(int) __attribute__((weak));
 
 namespace genio {
 
@@ -71,6 +73,7 @@ struct Cholesky::Impl {
 
 Cholesky::Cholesky(const ReducedStiffness& k) : impl_(std::make_unique<Impl>()) {
   if (openblas_set_num_threads) openblas_set_num_threads(1);
+  if (omp_set_num_threads) omp_set_num_threads(1);
   cholmod_common& c = impl_->common;
   cholmod_start(&c);
   c.print = 0;

@@ -17,8 +17,13 @@ constexpr double force_floor = 1e-3;  // [N]
 /// Everything one Newton solve looks at, so that its steps read like the method.
 class Newton {
  public:
-  Newton(const Model& model, const Parameters& p, Workspace& ws)
-      : model_(model), p_(p), ws_(ws) {}
+  Newton(const Model& model, const Parameters& p, Workspace& ws, int factorizations = 1 << 30)
+      : model_(model),
+        p_(p),
+        ws_(ws),
+        last_factorization_(ws.cholesky.factorizations() + factorizations) {}
+
+  bool spent() const { return ws_.cholesky.factorizations() > last_factorization_; }
 
   Vector residual(const Positions& x) const { return model_.dofs.reduce(force(model_, x, p_)); }
   double potential(const Positions& x) const { return energy(model_, x, p_); }
@@ -90,6 +95,7 @@ class Newton {
     for (int i = 0; i < stage_iterations; ++i) {
       if (!std::isfinite(at.energy)) return false;
       if (at.merit <= accuracy * start) return true;
+      if (spent()) return false;
       assemble(y, y_before);
       ++iterations;
       const Vector c = direction(at.r, 0.03);
@@ -149,13 +155,14 @@ class Newton {
   const Model& model_;
   const Parameters& p_;
   Workspace& ws_;
+  int last_factorization_;
   double shift_ = 0;  // last one needed, over the mean diagonal
 };
 
 /// Newton iterations from result.x at result.parameters.
 void iterate(const Model& model, Workspace& ws, const SolveOptions& options,
              Equilibrium& result) {
-  Newton newton(model, result.parameters, ws);
+  Newton newton(model, result.parameters, ws, options.max_factorizations);
   Positions& x = result.x;
   result.status = SolveStatus::failed;
   if (!std::isfinite(newton.potential(x))) {
@@ -170,6 +177,11 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options,
     if (result.residual <= options.tolerance) {
       result.status = SolveStatus::converged;
       result.message.clear();
+      return;
+    }
+    if (newton.spent()) {
+      result.message = fmt::format("not converged in {} factorisations (relative residual {:.1e})",
+                                   options.max_factorizations, result.residual);
       return;
     }
     const double accuracy = std::clamp(0.3 * result.residual, 1e-5, 0.05);

@@ -1,0 +1,30 @@
+#include "inverse/commands.hpp"
+
+#include <algorithm>
+
+namespace genio {
+
+std::vector<Command> muscle_commands(const Model& model, bool bilateral) {
+  std::vector<Command> commands;
+  for (const auto& muscle : model.muscles) {
+    const std::string name = bilateral ? bilateral_name(muscle.name) : muscle.name;
+    if (std::any_of(commands.begin(), commands.end(), [&](const auto& c) { return c.name == name; }))
+      continue;
+    Command c{name, 0, command_parameters(model, name), {}};
+    for (int k : c.parameters) c.max_force += model.parameters[k].info.upper;
+    for (int k : c.parameters) c.shares.push_back(model.parameters[k].info.upper / c.max_force);
+    commands.push_back(std::move(c));
+  }
+  return commands;
+}
+
+Parameters apply_commands(const std::vector<Command>& commands, const Vector& activations,
+                          Parameters parameters) {
+  for (size_t c = 0; c < commands.size(); ++c)
+    for (size_t i = 0; i < commands[c].parameters.size(); ++i)
+      parameters[commands[c].parameters[i]] =
+          activations[Eigen::Index(c)] * commands[c].max_force * commands[c].shares[i];
+  return parameters;
+}
+
+}  // namespace genio

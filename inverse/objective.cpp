@@ -1,0 +1,112 @@
+#include "inverse/objective.hpp"
+
+#include <cmath>
+
+#include "forward/sensitivity.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double longest_step = 5e-3;  // of any node between two points [m]
+
+}  // namespace
+
+Objective::Objective(const Model& model, const Comparison& comparison, const Prior& prior,
+                     const InferOptions& options, Workspace& ws)
+    : model_(model),
+      comparison_(comparison),
+      options_(options),
+      ws_(ws),
+      commands_(muscle_commands(model, options.bilateral.value_or(comparison.target().midsagittal()))),
+      base_(default_parameters(model)),
+      effort_weight_(1 / (prior.effort_sd * prior.effort_sd)),
+      factorizations_before_(ws.cholesky.factorizations()),
+      started_(std::chrono::steady_clock::now()) {}
+
+double Objective::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+}
+
+bool Objective::stopped() {
+  if (stop_ != InferStatus::converged) return true;
+  if (options_.cancelled && options_.cancelled()) stop_ = InferStatus::cancelled;
+  else if (options_.deadline_s > 0 && seconds() > options_.deadline_s) stop_ = InferStatus::deadline;
+  return stop_ != InferStatus::converged;
+}
+
+bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
+  if (stopped()) return false;
+  point.activations = activations;
+  const Parameters p = apply_commands(commands_, activations, base_);
+  Positions start = model_.rest;
+  SolveOptions solve_options;
+  if (have_anchor_) {
+    // Beyond what its linearisation can foresee a step is refused, which costs nothing; the
+    // optimiser comes back with a shorter one.
+    const Vector step = anchor_.positions * (activations - anchor_.activations);
+    start = anchor_.equilibrium.x + step;
+    if (step.cwiseAbs().maxCoeff() > longest_step || !std::isfinite(energy(model_, start, p))) {
+      failure_ = "the step is too long to follow";
+      return false;
+    }
+    solve_options.max_factorizations = 10;
+    solve_options.max_load_steps = 0;
+  } else if (have_last_) {
+    start = last_.equilibrium.x;
+  } else if (options_.start_shape) {
+    start = *options_.start_shape;
+  }
+  ++forward_solves_;
+  point.equilibrium = solve_equilibrium(model_, p, start, ws_, solve_options);
+  if (!point.equilibrium) {
+    failure_ = point.equilibrium.message;
+    return false;
+  }
+  point.residuals = comparison_(point.equilibrium.x);
+  point.value = 0.5 * point.residuals.values.squaredNorm() +
+                0.5 * effort_weight_ * activations.squaredNorm();
+  point.positions.resize(0, 0);
+  return true;
+}
+
+const ObjectivePoint* Objective::value(const Vector& activations) {
+  if (have_last_ && last_.activations == activations) return &last_;
+  if (have_anchor_ && anchor_.activations == activations) return &anchor_;
+  ObjectivePoint point;
+  if (!solve(activations, point)) return nullptr;
+  last_ = std::move(point);
+  have_last_ = true;
+  return &last_;
+}
+
+const ObjectivePoint* Objective::derivatives(const Vector& activations) {
+  if (have_anchor_ && anchor_.activations == activations) return &anchor_;
+  if (!value(activations)) return nullptr;
+  ObjectivePoint point = last_;
+  std::vector<int> parameters;
+  for (const auto& c : commands_) parameters.insert(parameters.end(), c.parameters.begin(), c.parameters.end());
+  const Matrix each = sensitivity(model_, point.equilibrium, parameters, ws_);
+  if (each.size() == 0) {
+    failure_ = "the equilibrium is unstable";
+    return nullptr;
+  }
+  point.positions = Matrix::Zero(each.rows(), Eigen::Index(commands_.size()));
+  Eigen::Index column = 0;
+  for (size_t c = 0; c < commands_.size(); ++c)
+    for (double share : commands_[c].shares)
+      point.positions.col(Eigen::Index(c)) += share * commands_[c].max_force * each.col(column++);
+  point.jacobian = residual_jacobian(point.residuals, point.positions);
+  point.gradient = point.jacobian.transpose() * point.residuals.values +
+                   effort_weight_ * point.activations;
+  anchor_ = std::move(point);
+  have_anchor_ = true;
+  return &anchor_;
+}
+
+Matrix Objective::hessian(const ObjectivePoint& point) const {
+  Matrix h = point.jacobian.transpose() * point.jacobian;
+  h.diagonal().array() += effort_weight_;
+  return h;
+}
+
+}  // namespace genio

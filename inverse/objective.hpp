@@ -1,0 +1,63 @@
+#pragma once
+// The reduced objective: commands in, misfit and its derivatives out, the mechanics hidden inside.
+
+#include <chrono>
+
+#include "inverse/infer.hpp"
+
+namespace genio {
+
+/// Everything known at one point of command space.
+struct ObjectivePoint {
+  Vector activations;
+  Equilibrium equilibrium;
+  Residuals residuals;
+  double value = 0;
+  // Filled on demand:
+  Matrix positions;  ///< dx/d activation, 3 n x count
+  Matrix jacobian;   ///< d residual / d activation
+  Vector gradient;
+};
+
+/// Evaluates and remembers. The last point whose sensitivities are known predicts the shape of the
+/// next, so that equilibrium is found in a few cheap steps.
+class Objective {
+ public:
+  Objective(const Model& model, const Comparison& comparison, const Prior& prior,
+            const InferOptions& options, Workspace& ws);
+
+  const std::vector<Command>& commands() const { return commands_; }
+  /// nullptr where no equilibrium was found or the time is up.
+  const ObjectivePoint* value(const Vector& activations);
+  /// As value(), with gradient and jacobian.
+  const ObjectivePoint* derivatives(const Vector& activations);
+  /// Gauss-Newton Hessian at a point whose derivatives are known.
+  Matrix hessian(const ObjectivePoint& point) const;
+
+  bool stopped();
+  InferStatus stop_reason() const { return stop_; }
+  const std::string& last_failure() const { return failure_; }
+  int factorizations() const { return ws_.cholesky.factorizations() - factorizations_before_; }
+  int forward_solves() const { return forward_solves_; }
+  double seconds() const;
+  double effort_weight() const { return effort_weight_; }
+
+ private:
+  bool solve(const Vector& activations, ObjectivePoint& point);
+
+  const Model& model_;
+  const Comparison& comparison_;
+  const InferOptions& options_;
+  Workspace& ws_;
+  std::vector<Command> commands_;
+  Parameters base_;
+  double effort_weight_;
+  ObjectivePoint last_, anchor_;  // latest evaluated; latest with derivatives
+  bool have_last_ = false, have_anchor_ = false;
+  InferStatus stop_ = InferStatus::converged;
+  std::string failure_;
+  int factorizations_before_, forward_solves_ = 0;
+  std::chrono::steady_clock::time_point started_;
+};
+
+}  // namespace genio

@@ -1,0 +1,52 @@
+#pragma once
+// The tongue's midsagittal surface line as a smooth curve of the nodal positions.
+
+#include <vector>
+
+#include "forward/model.hpp"
+
+namespace genio {
+
+using Vec2 = Eigen::Vector2d;  ///< (x, z) in the midsagittal plane [m]
+
+/// Natural cubic spline through the model's midsagittal nodes over their rest chord length,
+/// continued straight beyond both ends. Linear in the nodal positions: c(t) = sum_k w_k(t) x_k.
+class TongueLine {
+ public:
+  explicit TongueLine(const Model& model);
+
+  const std::vector<int>& nodes() const { return nodes_; }
+  double length() const { return knots_[knots_.size() - 1]; }
+  /// Rest chord length from the line's start to the tip node [m].
+  double tip_parameter() const { return tip_; }
+
+  /// Weights w_k(t), or those of dc/dt.
+  Vector weights(double t) const;
+  Vector slope_weights(double t) const;
+  Vec2 point(const Positions& x, double t) const;
+
+  struct Closest {
+    double t;         ///< parameter of the closest point [m along the rest chord]
+    double distance;  ///< signed: positive where q lies outside the tongue [m]
+    Vec2 normal;      ///< outward unit normal there
+  };
+  /// Closest point of the line to q. The distance is smooth in x and q wherever the closest point
+  /// is unique; d distance / d x_k = -w_k(t) normal (the point's slide along the line does not
+  /// count, as it is orthogonal to the normal).
+  Closest closest(const Positions& x, const Vec2& q) const;
+
+  /// The line as `count` points from end to end, equally spaced in t.
+  std::vector<Vec2> sample(const Positions& x, int count) const;
+
+ private:
+  Vector basis(double t, int derivative) const;
+  Eigen::Matrix2Xd control(const Positions& x) const;
+
+  std::vector<int> nodes_;
+  Vector knots_;
+  Matrix bend_;  // second derivatives at the knots = bend_ * values
+  Matrix dense_; // weights at equally spaced parameters, one row each
+  double tip_ = 0;
+};
+
+}  // namespace genio
