@@ -76,18 +76,38 @@ Paths mylohyoid(const Layout& l) {
 }
 
 /// From the side of the tongue body forwards, inwards and down; the styloid end is added later.
+/// Nine fibres a side: a few would tear a sharp edge into the surface.
 Paths styloglossus(const Layout& l) {
   Paths paths;
-  for (int layer : {l.r.deep - 1, l.r.deep - 2}) {
-    std::vector<Grid> p;
-    const int first = l.i(0.52), last = l.i(0.15);
-    for (int i = first; i >= last; --i) {
-      const double way = double(first - i) / (first - last);
-      p.push_back({i, std::max(1, int(std::lround(layer - 0.45 * l.r.deep * way * way))),
-                   int(std::lround(l.r.across * (1 - 0.75 * way * way)))});
+  for (int down = 0; down < 3; ++down)
+    for (int inward = 0; inward < 3; ++inward) {
+      std::vector<Grid> p;
+      const int first = l.i(0.56), last = l.i(0.15);
+      const int layer = l.r.deep - l.j(0.17 * (down + 1)), sheet = l.r.across - l.k(0.2 * inward);
+      for (int i = first; i >= last; --i) {
+        const double way = double(first - i) / (first - last);
+        p.push_back({i, std::max(1, int(std::lround(layer - 0.30 * l.r.deep * way * way))),
+                     std::max(1, int(std::lround(sheet - 0.45 * l.r.across * way * way)))});
+      }
+      paths.push_back(std::move(p));
     }
-    paths.push_back(std::move(p));
-  }
+  return paths;
+}
+
+/// From the hyoid up the side of the tongue body.
+Paths hyoglossus(const Layout& l) {
+  Paths paths;
+  for (double depth : {0.83, 0.67, 0.5})
+    for (double side : {0.6, 0.8, 1.0})
+      paths.push_back(arc(l.r.along - 1, l.i(0.48), l.j(depth), l.k(side)));
+  return paths;
+}
+
+Paths inferior_longitudinal(const Layout& l) {
+  Paths paths;
+  for (double depth : {0.67, 0.5})
+    for (double side : {0.2, 0.4, 0.6})
+      if (depth > 0.6 || side < 0.5) paths.push_back(arc(0, l.r.along - 1, l.j(depth), l.k(side)));
   return paths;
 }
 
@@ -113,7 +133,7 @@ std::vector<int> touched_elements(const HexMesh& mesh, const std::vector<Fibre>&
 
 std::vector<Muscle> make_muscles(const Resolution& r, const NodeAt& node, const HexMesh& mesh) {
   const Layout l{r};
-  const int in = 1, out = l.k(0.8);
+  const int in = 1;
   struct Entry {
     const char* name;
     double max_force;  // both sides [N]
@@ -122,14 +142,12 @@ std::vector<Muscle> make_muscles(const Resolution& r, const NodeAt& node, const 
   std::vector<Entry> table = {
       {"GGP", 37, fan(l, 0.50, 0.79, {in, in + 1})},
       {"GGM", 12, fan(l, 0.36, 0.43, {in, in + 1})},
-      {"GGA", 18, fan(l, 0.20, 0.34, {in})},
+      {"GGA", 18, fan(l, 0.20, 0.34, {in, in + 1})},
       {"STY", 24, styloglossus(l)},
-      {"HG", 65, {arc(r.along - 1, l.i(0.50), r.deep - 1, out),
-                  arc(r.along - 1, l.i(0.50), r.deep - 1, out - 1),
-                  arc(r.along - 1, l.i(0.50), r.deep - 2, out)}},
+      {"HG", 65, hyoglossus(l)},
       {"VERT", 20, verticalis(l)},
       {"TRANS", 50, transversus(l)},
-      {"IL", 9, {arc(0, r.along - 1, l.j(0.67), l.k(0.4)), arc(0, r.along - 1, l.j(0.67), l.k(0.6))}},
+      {"IL", 9, inferior_longitudinal(l)},
       {"GH", 17.5, fan(l, 0.97, 1.0, {in, in + 1})},
       {"MH", 39, mylohyoid(l)},
   };

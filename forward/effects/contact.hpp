@@ -40,6 +40,8 @@ class Contact final : public Effect {
                             Forces& df) const override;
   /// No node goes deeper than `reach` in one step, unless it is deeper already.
   double step_limit(const Positions& x, const Positions& along) const override;
+  /// Signed distance of a point from the surface, positive on the tongue's side [m].
+  double distance(const Vec3& point) const { return field_->value(point); }
   /// Deepest penetration in the shape `x` beyond the overlap at rest [m], >= 0.
   double max_penetration(const Positions& x) const;
 

@@ -1,0 +1,115 @@
+#include "inverse/frame_target.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "forward/effects/contact.hpp"
+#include "forward/nearest_name.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double bone_tolerance = 0;  // [m]
+constexpr double too_far = 0.12;  // [m] from the middle of the tongue
+
+/// Leaves out the ends of a contour that run through jaw or palate: where the tongue's edge fades,
+/// trackers follow something else. Only whole ends, never points from the middle.
+void trim_ends(const Model& model, Target& target) {
+  const auto inside_bone = [&](const CurvePoint& p) {
+    for (const auto& e : model.effects)
+      if (const auto* contact = dynamic_cast<const Contact*>(e.get()))
+        if (contact->distance(Vec3(p.position[0], 0, p.position[1])) < -bone_tolerance) return true;
+    return false;
+  };
+  auto& curve = target.curve;
+  const auto size = curve.size();
+  // The innermost bad point of each outer third decides: what lies beyond it is no better.
+  size_t first = 0, last = size;
+  for (size_t i = 0; i < size / 3; ++i) {
+    if (inside_bone(curve[i])) first = i + 1;
+    if (inside_bone(curve[size - 1 - i])) last = size - 1 - i;
+  }
+  curve = std::vector<CurvePoint>(curve.begin() + long(first), curve.begin() + long(last));
+  target.trimmed = int(size - curve.size());
+}
+
+int flesh_node(const Model& model, const std::string& name) {
+  if (name == "tip") return model.landmarks.tip;
+  if (name == "dorsum") return model.landmarks.dorsum;
+  if (name == "root") return model.landmarks.root;
+  if (name == "blade") {  // a third of the way from tip to dorsum along the line
+    const auto& line = model.midsagittal;
+    const auto tip = std::find(line.begin(), line.end(), model.landmarks.tip) - line.begin();
+    const auto top = std::find(line.begin(), line.end(), model.landmarks.dorsum) - line.begin();
+    return line[size_t(tip + (top - tip + 1) / 3)];
+  }
+  if (name.starts_with("node:")) {
+    char* end = nullptr;
+    const long n = std::strtol(name.c_str() + 5, &end, 10);
+    if (name.size() > 5 && !*end && n >= 0 && n < long(model.mesh.nodes.size())) return int(n);
+    throw InputError(fmt::format("kind '{}': expected node:0 to node:{}", name,
+                                 model.mesh.nodes.size() - 1));
+  }
+  throw InputError(fmt::format(
+      "kind '{}': unknown; did you mean {}?", name,
+      nearest_name(name, {"curve", "surface", "tip", "blade", "dorsum", "root", "node:0"})));
+}
+
+}  // namespace
+
+Target make_target(const Model& model, const ContourFrame& frame,
+                   const std::optional<Similarity>& transform, double noise) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& x : model.mesh.nodes) middle += x / double(model.mesh.nodes.size());
+  Target target;
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    const ContourPoint& p = frame.points[i];
+    Vec3 q = p.position;
+    if (transform) {
+      const Vec2 moved = (*transform)(Vec2(q[0], q[2]));
+      q = Vec3(moved[0], q[1], moved[1]);
+    }
+    const double sigma = p.sigma > 0 ? p.sigma : noise;
+    const Vec3 flat(q[0], std::isnan(q[1]) ? 0.0 : q[1], q[2]);
+    if (!((flat - middle).norm() < too_far))
+      throw InputError(fmt::format(
+          "frame {}, point {}: ({:.4g}, {:.4g}) mm lies {:.4g} mm from the middle of the tongue; "
+          "expected millimetres in the model's frame. Wrong units, or not registered?",
+          frame.number, i + 1, 1e3 * q[0], 1e3 * q[2], 1e3 * (flat - middle).norm()));
+    if (p.kind == "curve") target.curve.push_back({Vec2(q[0], q[2]), sigma});
+    else if (p.kind == "surface") target.surface.push_back({q, sigma});
+    else target.flesh.push_back({flesh_node(model, p.kind), q, sigma, p.kind});
+  }
+  if (transform) trim_ends(model, target);
+  if (frame.points.size() > 2) {
+    Vec3 low = Vec3::Constant(1e9), high = -low;
+    for (const auto& p : frame.points) {
+      const Vec3 flat(p.position[0], 0, p.position[2]);
+      low = low.cwiseMin(flat), high = high.cwiseMax(flat);
+    }
+    if ((high - low).norm() < 1e-3)
+      throw InputError(fmt::format(
+          "frame {}: all points lie within {:.3g} mm; a tongue contour has 20 to 150 mm. Wrong "
+          "units? Expected millimetres", frame.number, 1e3 * (high - low).norm()));
+  }
+  return target;
+}
+
+std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {
+  std::vector<std::vector<Vec2>> result;
+  for (const auto& frame : file.frames) {
+    std::vector<Vec2> line;
+    for (const auto& p : frame.points)
+      if (p.kind == "curve") line.emplace_back(p.position[0], p.position[2]);
+    if (!line.empty()) result.push_back(std::move(line));
+  }
+  return result;
+}
+
+double default_noise(ContourFormat format) {
+  return format == ContourFormat::aaa ? 1.5e-3 : 0.5e-3;
+}
+
+}  // namespace genio

@@ -1,0 +1,31 @@
+#pragma once
+// Bringing a recording's own frame into the model's, by the palate both know.
+
+#include <vector>
+
+#include "inverse/contour_file.hpp"
+#include "inverse/tongue_line.hpp"
+
+namespace genio {
+
+/// q -> scale R(angle) q + shift in the midsagittal plane.
+struct Similarity {
+  double scale = 1, angle = 0;  ///< [-], [rad], counter-clockwise with x back and z up
+  Vec2 shift = Vec2::Zero();    ///< [m]
+  Vec2 operator()(const Vec2& q) const;
+};
+
+struct Registration {
+  Similarity transform;
+  double palate_rms = 0;  ///< of the palate trace from the model's palate, after fitting [m]
+};
+
+/// Rigid motion and scale that lay the palate trace onto the model's midsagittal palate. Along a
+/// smooth arch that leaves a slide and a tilt nearly free, so scale and tilt are held by weak
+/// priors (6 % and 20 degrees), and the typical tongue contour by one that it lies about the rest
+/// shape (5 mm).
+/// Throws InputError when the model has no palate or the trace fewer than 5 points.
+Registration register_by_palate(const Model& model, const std::vector<Vec2>& palate_trace,
+                                const std::vector<std::vector<Vec2>>& contours);
+
+}  // namespace genio
