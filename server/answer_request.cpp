@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "inverse/frame_target.hpp"
+#include "inverse/infer.hpp"
+#include "server/service.hpp"
+
+namespace genio {
+
+struct RequestWorker::State {
+  explicit State(const Model& m) : workspace(m) {}
+  Workspace workspace;
+};
+
+RequestWorker::RequestWorker(const Model& model) : state_(std::make_unique<State>(model)) {}
+RequestWorker::~RequestWorker() = default;
+
+namespace {
+
+ContourFrame frame_of(const shape_request_t& r) {
+  ContourFrame frame;
+  frame.number = 1;
+  for (int i = 0; i < r.point_count; ++i) {
+    const size_t k = size_t(i);
+    if (!std::isfinite(r.x_mm[k]) || !std::isfinite(r.z_mm[k]))
+      throw InputError(fmt::format("point {}: x_mm and z_mm must be finite", i + 1));
+    if (std::isinf(r.y_mm[k])) throw InputError(fmt::format("point {}: y_mm is infinite", i + 1));
+    if (!std::isfinite(r.sigma_mm[k]) || r.sigma_mm[k] < 0)
+      throw InputError(fmt::format("point {}: sigma_mm must be 0 or above", i + 1));
+    if (r.kind[k] == "surface" && std::isnan(r.y_mm[k]))
+      throw InputError(fmt::format("point {}: a surface point needs y_mm", i + 1));
+    frame.points.push_back({1e-3 * Vec3(r.x_mm[k], r.y_mm[k], r.z_mm[k]), 1e-3 * r.sigma_mm[k],
+                            r.kind[k].empty() ? "curve" : r.kind[k]});
+  }
+  return frame;
+}
+
+void fill(const Model& model, const Answer& a, command_reply_t& reply) {
+  for (const auto& c : a.commands) {
+    reply.muscle.push_back(c.name);
+    reply.force_N.push_back(c.force);
+    reply.max_force_N.push_back(c.max_force);
+    reply.sd_N.push_back(c.sd);
+    reply.low_N.push_back(c.low);
+    reply.high_N.push_back(c.high);
+  }
+  reply.muscle_count = int(reply.muscle.size());
+  for (const auto& group : a.unidentified)
+    reply.unidentified.push_back(fmt::format("{}", fmt::join(group, "+")));
+  reply.group_count = int(reply.unidentified.size());
+  reply.rms_mm = 1e3 * a.rms, reply.max_mm = 1e3 * a.max, reply.chi2_per_dof = a.chi2_per_dof;
+  if (a.shape.size() > 0)
+    for (const Vec2& p : TongueLine(model).sample(a.shape, 80)) {
+      reply.line_x_mm.push_back(1e3 * p[0]);
+      reply.line_z_mm.push_back(1e3 * p[1]);
+    }
+  reply.line_count = int(reply.line_x_mm.size());
+}
+
+}  // namespace
+
+command_reply_t answer_request(const Model& model, const shape_request_t& request,
+                               RequestWorker& worker,
+                               const std::function<void(int, double)>& progress,
+                               const std::function<bool()>& cancelled) {
+  command_reply_t reply{};
+  reply.id = request.id;
+  reply.status = "failed";
+  reply.verdict = "none";
+  try {
+    if (!std::isfinite(request.default_sigma_mm) || request.default_sigma_mm < 0)
+      throw InputError("default_sigma_mm must be 0 or above");
+    if (!std::isfinite(request.deadline_s) || request.deadline_s < 0)
+      throw InputError("deadline_s must be 0 or above");
+    if (request.bilateral < -1 || request.bilateral > 1)
+      throw InputError("bilateral must be -1, 0 or 1");
+    const double noise = request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm
+                                                      : default_noise(ContourFormat::csv);
+    const Target target = make_target(model, frame_of(request), std::nullopt, noise);
+    InferOptions options;
+    options.deadline_s = request.deadline_s;
+    if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;
+    options.progress = progress;
+    options.cancelled = cancelled;
+    const Answer a = infer(model, target, Prior{}, worker.state().workspace, options);
+    reply.status = to_string(a.status);
+    reply.message = a.message;
+    reply.verdict = to_string(a.verdict);
+    reply.ipopt_iterations = a.iterations;
+    reply.factorizations = a.factorizations;
+    reply.wall_s = a.wall_s;
+    fill(model, a, reply);
+  } catch (const std::exception& e) {
+    reply.message = e.what();
+  }
+  return reply;
+}
+
+}  // namespace genio

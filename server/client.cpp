@@ -1,0 +1,73 @@
+#include "server/client.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <random>
+
+namespace genio {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string unique_name() {
+  std::random_device random;
+  return fmt::format("c{}-{:08x}{:08x}", getpid(), random(), random());
+}
+
+}  // namespace
+
+Client::Client(const std::string& url) : link_(url), name_(unique_name()) {
+  link_.subscribe("GENIO_REPLY." + name_, [this](const std::string&, const void* data, size_t size) {
+    std::string why;
+    auto reply = decode_checked<command_reply_t>(data, size, why);
+    if (reply && reply->id == waiting_for_) reply_ = std::move(reply);
+  });
+  link_.subscribe("GENIO_PROGRESS." + name_, [this](const std::string&, const void* data, size_t size) {
+    std::string why;
+    const auto p = decode_checked<progress_t>(data, size, why);
+    if (p && p->id == waiting_for_ && progress_) progress_(*p);
+  });
+  link_.subscribe("GENIO_STATUS", [this](const std::string&, const void* data, size_t size) {
+    std::string why;
+    status_ = decode_checked<server_status_t>(data, size, why);
+  });
+}
+
+std::optional<command_reply_t> Client::request(shape_request_t request, double timeout_s,
+                                               const std::function<void(const progress_t&)>& progress) {
+  request.client = name_;
+  if (request.id.empty()) request.id = fmt::format("{}-{}", name_, ++sent_);
+  request.utime = now_us();
+  waiting_for_ = request.id;
+  reply_.reset();
+  progress_ = progress;
+  const auto bytes = encode(request);
+  const auto end = Clock::now() + std::chrono::duration<double>(timeout_s);
+  auto ask_again = Clock::now();
+  while (!reply_ && Clock::now() < end) {
+    if (Clock::now() >= ask_again) {
+      link_.publish("GENIO_REQUEST", bytes);
+      ask_again = Clock::now() + std::chrono::seconds(2);
+    }
+    link_.wait(20);
+  }
+  progress_ = {};
+  return reply_;
+}
+
+void Client::cancel(const std::string& id) {
+  cancel_t c{};
+  c.utime = now_us(), c.id = id;
+  link_.publish("GENIO_CANCEL", encode(c));
+}
+
+std::optional<server_status_t> Client::status(double timeout_s) {
+  status_.reset();
+  const auto end = Clock::now() + std::chrono::duration<double>(timeout_s);
+  while (!status_ && Clock::now() < end) link_.wait(50);
+  return status_;
+}
+
+}  // namespace genio

@@ -1,0 +1,48 @@
+#pragma once
+// One LCM connection, owned by one thread, that survives what LCM 1.3.1 does not.
+
+#include <functional>
+#include <list>
+#include <string>
+#include <vector>
+
+struct _lcm_t;
+
+namespace genio {
+
+inline constexpr const char* default_url = "tcpq://127.0.0.1:7700";
+
+/// --lcm, else LCM_DEFAULT_URL, else default_url.
+std::string choose_url(const std::string& option);
+
+/// Port of a tcpq URL on this host ("tcpq://127.0.0.1:7700" gives 7700); 0 for any other URL.
+uint16_t local_tcpq_port(const std::string& url);
+
+class Link {
+ public:
+  using Handler = std::function<void(const std::string& channel, const void* data, size_t size)>;
+
+  /// Throws InputError when the URL cannot be used.
+  explicit Link(const std::string& url);
+  ~Link();
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+
+  void subscribe(const std::string& channel, Handler handler);
+  /// False when the connection is down.
+  bool publish(const std::string& channel, const std::vector<uint8_t>& bytes);
+  /// Waits up to `timeout_ms` for a message, or for `other_fd` (if >= 0) to become readable, and
+  /// handles what is there. False when the connection is down; a later call tries to reconnect.
+  bool wait(int timeout_ms, int other_fd = -1);
+
+ private:
+  struct Subscription;
+  void tune();
+
+  _lcm_t* lcm_;
+  bool tcp_;
+  int tuned_fd_ = -1;
+  std::list<Subscription> subscriptions_;
+};
+
+}  // namespace genio
