@@ -3,7 +3,7 @@ include(GNUInstallDirs)
 
 add_library(genio_flags INTERFACE)
 target_compile_options(genio_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi
-                       -Wno-maybe-uninitialized)  # GCC 12 sees ghosts in its own AVX-512 headers (PR 105593)
+                       -Wno-maybe-uninitialized -Wno-restrict)  # GCC 12 bugs 105593, 105329
 if(GENIO_WERROR)
   target_compile_options(genio_flags INTERFACE -Werror)
 endif()

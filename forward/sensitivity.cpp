@@ -4,11 +4,16 @@ namespace genio {
 
 Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
                    std::span<const int> parameters, Workspace& ws) {
+  return sensitivity_to_forces(
+      model, equilibrium,
+      force_derivatives(model, equilibrium.x, equilibrium.parameters, parameters), ws);
+}
+
+Matrix sensitivity_to_forces(const Model& model, const Equilibrium& equilibrium, const Matrix& df,
+                             Workspace& ws) {
   stiffness(model, equilibrium.x, equilibrium.parameters, ws.stiffness);
   ws.reduced.assign(ws.stiffness);
   if (!ws.cholesky.factorize(ws.reduced)) return {};
-  const Matrix df =
-      force_derivatives(model, equilibrium.x, equilibrium.parameters, parameters);
   Matrix right(model.dofs.unknowns(), df.cols());
   for (Eigen::Index c = 0; c < df.cols(); ++c) right.col(c) = model.dofs.reduce(df.col(c));
   const Matrix solved = ws.cholesky.solve(right);

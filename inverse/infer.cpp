@@ -33,11 +33,23 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
   Objective objective(model, comparison, prior, options, ws);
   const Eigen::Index n = Eigen::Index(objective.commands().size());
   const bool warm = options.start.size() == n;
-  const Vector start = warm ? options.start : Vector::Constant(n, 1e-2);
+  Vector start = warm ? options.start : Vector::Constant(n, 1e-2);
 
   Answer answer;
-  const OptimiserResult optimum = minimise(objective, start, warm, options);
-  answer.iterations = optimum.iterations;
+  if (!warm) {
+    // From rest the first steps tend to set muscles against each other far beyond what the shape
+    // needs. Effort that counts more keeps them near; its optimum is a start for the real one.
+    InferOptions rough = options;
+    rough.tolerance = 0.1;
+    rough.max_iterations = 15;
+    objective.set_effort_sd(prior.effort_sd / 4);
+    const OptimiserResult near = minimise(objective, start, false, rough);
+    objective.set_effort_sd(prior.effort_sd);
+    answer.iterations = near.iterations;
+    if (near.activations.size() == n) start = near.activations;
+  }
+  const OptimiserResult optimum = minimise(objective, start, true, options);
+  answer.iterations += optimum.iterations;
   answer.status = optimum.converged ? InferStatus::converged
                   : objective.stopped() ? objective.stop_reason() : InferStatus::failed;
   answer.message = optimum.message;

@@ -34,6 +34,19 @@ bool Objective::stopped() {
   return stop_ != InferStatus::converged;
 }
 
+void Objective::weigh(ObjectivePoint& p) const {
+  p.value = 0.5 * p.residuals.values.squaredNorm() +
+            0.5 * effort_weight_ * p.activations.squaredNorm();
+  if (p.positions.size() > 0)
+    p.gradient = p.jacobian.transpose() * p.residuals.values + effort_weight_ * p.activations;
+}
+
+void Objective::set_effort_sd(double sd) {
+  effort_weight_ = 1 / (sd * sd);
+  if (have_last_) weigh(last_);
+  if (have_anchor_) weigh(anchor_);
+}
+
 bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
   if (stopped()) return false;
   point.activations = activations;
@@ -63,9 +76,8 @@ bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
     return false;
   }
   point.residuals = comparison_(point.equilibrium.x);
-  point.value = 0.5 * point.residuals.values.squaredNorm() +
-                0.5 * effort_weight_ * activations.squaredNorm();
   point.positions.resize(0, 0);
+  weigh(point);
   return true;
 }
 
@@ -83,21 +95,21 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
   if (have_anchor_ && anchor_.activations == activations) return &anchor_;
   if (!value(activations)) return nullptr;
   ObjectivePoint point = last_;
-  std::vector<int> parameters;
-  for (const auto& c : commands_) parameters.insert(parameters.end(), c.parameters.begin(), c.parameters.end());
-  const Matrix each = sensitivity(model_, point.equilibrium, parameters, ws_);
-  if (each.size() == 0) {
+  Matrix pull = Matrix::Zero(point.equilibrium.x.size(), Eigen::Index(commands_.size()));
+  for (size_t c = 0; c < commands_.size(); ++c) {
+    const Matrix each = force_derivatives(model_, point.equilibrium.x, point.equilibrium.parameters,
+                                          commands_[c].parameters);
+    for (size_t i = 0; i < commands_[c].shares.size(); ++i)
+      pull.col(Eigen::Index(c)) +=
+          commands_[c].shares[i] * commands_[c].max_force * each.col(Eigen::Index(i));
+  }
+  point.positions = sensitivity_to_forces(model_, point.equilibrium, pull, ws_);
+  if (point.positions.size() == 0) {
     failure_ = "the equilibrium is unstable";
     return nullptr;
   }
-  point.positions = Matrix::Zero(each.rows(), Eigen::Index(commands_.size()));
-  Eigen::Index column = 0;
-  for (size_t c = 0; c < commands_.size(); ++c)
-    for (double share : commands_[c].shares)
-      point.positions.col(Eigen::Index(c)) += share * commands_[c].max_force * each.col(column++);
   point.jacobian = residual_jacobian(point.residuals, point.positions);
-  point.gradient = point.jacobian.transpose() * point.residuals.values +
-                   effort_weight_ * point.activations;
+  weigh(point);
   anchor_ = std::move(point);
   have_anchor_ = true;
   return &anchor_;

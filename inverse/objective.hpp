@@ -26,6 +26,9 @@ class Objective {
   Objective(const Model& model, const Comparison& comparison, const Prior& prior,
             const InferOptions& options, Workspace& ws);
 
+  /// Changes the prior; what is remembered stays valid but for its value and gradient.
+  void set_effort_sd(double sd);
+
   const std::vector<Command>& commands() const { return commands_; }
   /// nullptr where no equilibrium was found or the time is up.
   const ObjectivePoint* value(const Vector& activations);
@@ -43,6 +46,7 @@ class Objective {
   double effort_weight() const { return effort_weight_; }
 
  private:
+  void weigh(ObjectivePoint& point) const;
   bool solve(const Vector& activations, ObjectivePoint& point);
 
   const Model& model_;

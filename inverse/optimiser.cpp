@@ -124,6 +124,7 @@ OptimiserResult minimise(Objective& objective, const Vector& start, bool warm,
   set("mu_strategy", "monotone");
   set("mu_init", warm ? 1e-4 : 1e-2);
   set("mu_linear_decrease_factor", 0.1);
+  set("barrier_tol_factor", 1000.0);  // the barrier is only a way to the bounds: hurry along it
   set("bound_relax_factor", 0.0);
   set("bound_push", warm ? 1e-4 : 1e-2);
   set("bound_frac", warm ? 1e-4 : 1e-2);

@@ -68,8 +68,11 @@ MarginalSummary summarise(const Marginal& m, bool at_lower, bool at_upper) {
     return low + cell * (double(i) - 1 + part);
   };
   MarginalSummary s{std::sqrt(std::max(0.0, square - mean * mean)), 0, 1};
-  s.low = at_lower ? 0.0 : quantile(at_upper ? 0.1 : 0.05);
-  s.high = at_upper ? 1.0 : quantile(at_lower ? 0.9 : 0.95);
+  // Near a bound the central interval would leave the mode out; then it is one-sided as well.
+  const bool from_zero = at_lower || m.mode < quantile(0.05);
+  const bool to_one = at_upper || m.mode > quantile(0.95);
+  s.low = from_zero ? 0.0 : quantile(to_one ? 0.1 : 0.05);
+  s.high = to_one ? 1.0 : quantile(from_zero ? 0.9 : 0.95);
   return s;
 }
 

@@ -11,8 +11,8 @@ struct Marginal {
   double mode, slope, curvature;
 };
 
-/// Moments of a Marginal and its central 90 % interval, or, where the mode sits at a bound, the
-/// one-sided interval from there.
+/// Moments of a Marginal and its central 90 % interval, or, where the mode sits at a bound or
+/// so near that the central interval would miss it, the one-sided interval from there.
 struct MarginalSummary {
   double sd, low, high;
 };

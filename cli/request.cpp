@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "forward/model_file.hpp"
+#include "inverse/contour_file.hpp"
+#include "report/answer_report.hpp"
+#include "server/client.hpp"
+
+namespace genio::cli {
+namespace {
+
+struct RequestOptions {
+  std::string url, target, model = default_model(), out, cancel_id;
+  double timeout_s = 120, deadline_s = 0, noise_mm = 0;
+  bool json = false;
+};
+
+shape_request_t request_of(const ContourFrame& frame, const RequestOptions& o) {
+  shape_request_t r{};
+  for (const auto& p : frame.points) {
+    r.x_mm.push_back(1e3 * p.position[0]);
+    r.y_mm.push_back(1e3 * p.position[1]);
+    r.z_mm.push_back(1e3 * p.position[2]);
+    r.sigma_mm.push_back(1e3 * p.sigma);
+    r.kind.push_back(p.kind);
+  }
+  r.point_count = int(frame.points.size());
+  r.default_sigma_mm = o.noise_mm;
+  r.deadline_s = o.deadline_s;
+  r.bilateral = -1;
+  return r;
+}
+
+AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
+  AnswerView v;
+  v.title = fmt::format("frame {}{}{}", frame.number, frame.label.empty() ? "" : ": ", frame.label);
+  v.status = r.status, v.message = r.message, v.verdict = r.verdict;
+  for (size_t i = 0; i < r.muscle.size(); ++i)
+    v.commands.push_back({r.muscle[i], r.force_N[i], r.max_force_N[i], r.sd_N[i], r.low_N[i], r.high_N[i], false, false});
+  for (const auto& group : r.unidentified) {
+    std::vector<std::string> names(1);
+    for (char c : group)
+      if (c == '+') names.emplace_back();
+      else names.back() += c;
+    v.unidentified.push_back(std::move(names));
+  }
+  v.rms_mm = r.rms_mm, v.max_mm = r.max_mm, v.chi2_per_dof = r.chi2_per_dof;
+  v.iterations = r.ipopt_iterations, v.factorizations = r.factorizations, v.wall_s = r.wall_s;
+  for (const auto& p : frame.points) v.measured.emplace_back(p.position[0], p.position[2]);
+  for (size_t i = 0; i < r.line_x_mm.size(); ++i)
+    v.predicted.emplace_back(1e-3 * r.line_x_mm[i], 1e-3 * r.line_z_mm[i]);
+  return v;
+}
+
+int run_request(const RequestOptions& o) {
+  if (o.target.empty()) throw InputError("--target: a contour file is needed");
+  const ContourFile file = read_contours(o.target, "csv");
+  Client client(choose_url(o.url));
+  bool all = true;
+  for (const auto& frame : file.frames) {
+    const auto reply = client.request(request_of(frame, o), o.timeout_s, [&](const progress_t& p) {
+      if (!o.json) fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
+    });
+    if (!o.json) fmt::print(stderr, "\n");
+    if (!reply)
+      throw std::runtime_error(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
+                                           choose_url(o.url), o.timeout_s));
+    const AnswerView view = view_of(*reply, frame);
+    all &= view.status == "converged";
+    if (o.json) fmt::print("{}\n", to_json(view, frame.number).dump());
+    else fmt::print("{}", to_table(view));
+    if (!o.out.empty())
+      write_report(read_model(o.model), view, frame.number, o.out, fmt::format("frame{:05d}", frame.number));
+  }
+  return all ? done : no_answer;
+}
+
+int run_status(const RequestOptions& o) {
+  Client client(choose_url(o.url));
+  const auto s = client.status(o.timeout_s);
+  if (!s) throw std::runtime_error(fmt::format("no server on {} within {} s", choose_url(o.url), o.timeout_s));
+  const nlohmann::json j = {{"version", s->version}, {"model", s->model}, {"queued", s->queued},
+                            {"running", s->running}, {"received", s->received}, {"replied", s->replied},
+                            {"refused", s->refused}, {"uptime_s", s->uptime_s}};
+  fmt::print("{}\n", o.json ? j.dump() : j.dump(2));
+  return done;
+}
+
+}  // namespace
+
+Runner add_request(CLI::App& app) {
+  auto o = std::make_shared<RequestOptions>();
+  app.add_option("--lcm", o->url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
+  app.add_option("--target", o->target, "CSV contour in the model's frame");
+  app.add_option("--timeout-s", o->timeout_s, "How long to wait for each reply");
+  app.add_option("--deadline-s", o->deadline_s, "Time the server may compute");
+  app.add_option("--noise-mm", o->noise_mm, "Measurement noise (default 0.5)");
+  app.add_option("--model", o->model, "Model whose anatomy the picture shows");
+  app.add_flag("--json", o->json, "One JSON object a frame on standard output");
+  app.add_option("--out", o->out, "Folder for pictures and numbers");
+  auto* status = app.add_subcommand("status", "What the server is doing");
+  status->add_flag("--json", o->json, "On one line");
+  auto* cancel = app.add_subcommand("cancel", "Withdraw a request");
+  cancel->add_option("id", o->cancel_id, "Id of the request")->required();
+  app.footer("Example: genio request --target data/examples/example_shape.csv");
+  return [o, status, cancel]() -> int {
+    if (status->parsed()) return run_status(*o);
+    if (cancel->parsed()) {
+      Client(choose_url(o->url)).cancel(o->cancel_id);
+      return done;
+    }
+    return run_request(*o);
+  };
+}
+
+}  // namespace genio::cli

@@ -1,0 +1,35 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "cli/commands.hpp"
+#include "forward/types.hpp"
+
+namespace genio::cli {
+
+std::string default_model() {
+  namespace fs = std::filesystem;
+  if (const char* given = std::getenv("GENIO_MODEL")) return given;
+  std::error_code none;
+  const fs::path self = fs::read_symlink("/proc/self/exe", none);
+  // Beside an installed program, in a source tree above its build folder, or where one stands.
+  const fs::path installed = self.parent_path() / "../share/genio/generic/model.toml";
+  if (fs::exists(installed)) return installed.lexically_normal().string();
+  for (fs::path up = self.parent_path(); up.has_relative_path(); up = up.parent_path())
+    if (fs::exists(up / "data/generic/model.toml")) return (up / "data/generic/model.toml").string();
+  return "data/generic/model.toml";
+}
+
+std::pair<std::string, double> parse_assignment(const std::string& option, const std::string& text) {
+  const auto equals = text.find('=');
+  char* end = nullptr;
+  const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
+  const double number = std::strtod(value.c_str(), &end);
+  if (equals == 0 || value.empty() || *end || !std::isfinite(number))
+    throw InputError(fmt::format("{} {}: expected NAME=NUMBER, for example GGP=4", option, text));
+  return {text.substr(0, equals), number};
+}
+
+}  // namespace genio::cli

@@ -1,0 +1,172 @@
+#include "report/answer_report.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "forward/vtk_io.hpp"
+#include "report/svg.hpp"
+
+namespace genio {
+
+AnswerView view_of(const Model& model, const Target& target, const Answer& a,
+                   const std::string& title) {
+  AnswerView v;
+  v.title = title;
+  v.status = to_string(a.status), v.message = a.message, v.verdict = to_string(a.verdict);
+  v.commands = a.commands, v.unidentified = a.unidentified;
+  v.rms_mm = 1e3 * a.rms, v.max_mm = 1e3 * a.max, v.chi2_per_dof = a.chi2_per_dof;
+  v.wall_s = a.wall_s, v.iterations = a.iterations, v.factorizations = a.factorizations;
+  for (const auto& p : target.curve) v.measured.push_back(p.position);
+  for (const auto& p : target.flesh) v.measured.emplace_back(p.position[0], p.position[2]);
+  if (a.shape.size() > 0) v.predicted = TongueLine(model).sample(a.shape, 120);
+  return v;
+}
+
+nlohmann::json to_json(const AnswerView& v, int frame) {
+  nlohmann::json j;
+  j["frame"] = frame;
+  j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
+  for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation"})
+    j[key] = nlohmann::json::object();
+  for (const auto& c : v.commands) {
+    j["forces_N"][c.name] = c.force;
+    j["sd_N"][c.name] = c.sd;
+    j["interval90_N"][c.name] = {c.low, c.high};
+    j["activation"][c.name] = c.force / c.max_force;
+  }
+  j["rms_mm"] = v.rms_mm, j["max_mm"] = v.max_mm, j["chi2_per_dof"] = v.chi2_per_dof;
+  j["unidentified"] = v.unidentified;
+  j["ipopt_iterations"] = v.iterations, j["factorizations"] = v.factorizations;
+  j["wall_s"] = v.wall_s;
+  return j;
+}
+
+std::string to_table(const AnswerView& v) {
+  std::string out;
+  if (!v.commands.empty())
+    out += fmt::format("{:<8} {:>9} {:>8} {:>9}   {}\n", "muscle", "force N", "% max", "+- sd N",
+                       "90 % interval N");
+  for (const auto& c : v.commands)
+    out += fmt::format("{:<8} {:9.2f} {:8.1f} {:9.2f}   {:.2f} to {:.2f}\n", c.name, c.force,
+                       100 * c.force / c.max_force, c.sd, c.low, c.high);
+  if (!v.commands.empty())
+    out += fmt::format("fit      RMS {:.2f} mm, max {:.2f} mm, chi2/dof {:.2f}\n", v.rms_mm,
+                       v.max_mm, v.chi2_per_dof);
+  for (const auto& group : v.unidentified)
+    out += fmt::format("unseen   the data cannot tell apart: {}\n", fmt::join(group, ", "));
+  out += fmt::format("status   {}\nverdict  {}{}{}\n", v.status, v.verdict,
+                     v.message.empty() ? "" : ": ", v.message);
+  return out;
+}
+
+namespace {
+
+constexpr const char *grey = "#9aa0a6", *blue = "#1f5fa8", *red = "#c8443a", *bone = "#6b5b45";
+
+std::vector<Vec2> in_mm(const std::vector<Vec2>& points) {
+  std::vector<Vec2> out;
+  for (const Vec2& p : points) out.push_back(1e3 * p);
+  return out;
+}
+
+void draw_plane(Svg& svg, const Model& model, const AnswerView& v) {
+  const Axes axes{38, 148, 44, 134, 50, 56, 550, 450};
+  svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
+  for (int x = 40; x <= 140; x += 20) {
+    svg.line(axes.px(x), axes.top, axes.px(x), axes.top + axes.height, {"#eee"});
+    svg.text(axes.px(x), axes.top + axes.height + 16, fmt::format("{}", x), 11, "middle", "#777");
+  }
+  for (int z = 60; z <= 120; z += 20) {
+    svg.line(axes.left, axes.py(z), axes.left + axes.width, axes.py(z), {"#eee"});
+    svg.text(axes.left - 6, axes.py(z) + 4, fmt::format("{}", z), 11, "end", "#777");
+  }
+  svg.text(axes.left + axes.width / 2, axes.top + axes.height + 34, "x [mm], lips left, pharynx right",
+           12, "middle", "#555");
+  for (const auto* surface : {&model.palate, &model.jaw, &model.hyoid})
+    if (*surface)
+      for (const auto& cut : midsagittal_cut(**surface))
+        svg.polyline(axes, in_mm(cut), {bone, "none", 2.2});
+  svg.polyline(axes, in_mm(TongueLine(model).sample(model.rest, 120)), {grey, "none", 2, "6,4"});
+  if (!v.predicted.empty()) svg.polyline(axes, in_mm(v.predicted), {blue, "none", 2.6});
+  for (const Vec2& p : v.measured)
+    svg.circle(axes.px(1e3 * p[0]), axes.py(1e3 * p[1]), 3, {"white", red, 0.7});
+  struct Entry { const char *colour, *name; };
+  double x = axes.left + 8;
+  for (const Entry& e : {Entry{grey, "rest"}, {blue, "predicted"}, {red, "measured"}, {bone, "palate, jaw, hyoid"}}) {
+    svg.line(x, axes.top + 14, x + 22, axes.top + 14, {e.colour, "none", 3});
+    svg.text(x + 28, axes.top + 18, e.name, 12, "start");
+    x += 100;
+  }
+}
+
+void draw_forces(Svg& svg, const AnswerView& v) {
+  const size_t n = std::max<size_t>(1, v.commands.size());
+  double most = 0.05;
+  for (const auto& c : v.commands) most = std::max(most, std::min(1.0, c.high / c.max_force));
+  const Axes axes{0, 100 * most * 1.05, 0, double(n), 700, 56, 330, 450};
+  svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
+  const double step = most > 0.5 ? 20 : most > 0.2 ? 10 : most > 0.1 ? 5 : 1;
+  for (double p = 0; p <= axes.x1; p += step) {
+    svg.line(axes.px(p), axes.top, axes.px(p), axes.top + axes.height, {"#eee"});
+    svg.text(axes.px(p), axes.top + axes.height + 16, fmt::format("{}", p), 11, "middle", "#777");
+  }
+  svg.text(axes.left + axes.width / 2, axes.top + axes.height + 34,
+           "force, % of maximum; bar: 90 % interval", 12, "middle", "#555");
+  for (size_t i = 0; i < v.commands.size(); ++i) {
+    const auto& c = v.commands[i];
+    const double y0 = axes.py(double(n - i) - 0.2), y1 = axes.py(double(n - i) - 0.8), mid = (y0 + y1) / 2;
+    const auto px = [&](double force) { return axes.px(100 * force / c.max_force); };
+    svg.rect(axes.left, y0, px(c.force) - axes.left, y1 - y0, {"none", blue});
+    svg.line(px(c.low), mid, px(c.high), mid, {"#222", "none", 1.6});
+    for (double end : {c.low, c.high}) svg.line(px(end), mid - 4, px(end), mid + 4, {"#222", "none", 1.6});
+    svg.text(axes.left - 8, mid + 4, c.name, 12, "end");
+    svg.text(axes.left + axes.width + 8, mid + 4, fmt::format("{:.2f} N", c.force), 11, "start");
+  }
+}
+
+}  // namespace
+
+std::string draw(const Model& model, const AnswerView& v) {
+  Svg svg(1110, 560);
+  svg.text(50, 30, v.title, 17, "start", "#111");
+  svg.text(1060, 30, fmt::format("{}; RMS {:.2f} mm, max {:.2f} mm",
+                                 v.verdict == "none" ? v.status : v.verdict, v.rms_mm, v.max_mm),
+           14, "end", "#111");
+  draw_plane(svg, model, v);
+  draw_forces(svg, v);
+  return svg.str();
+}
+
+void write_report(const Model& model, const AnswerView& v, int frame, const std::string& folder,
+                  const std::string& name) {
+  std::filesystem::create_directories(folder);
+  const std::string base = (std::filesystem::path(folder) / name).string();
+  const std::string picture = draw(model, v);
+  write_text(base + ".svg", picture);
+  write_png(base + ".png", picture, 1.5);
+  write_text(base + ".json", to_json(v, frame).dump(2) + "\n");
+  std::string csv = "muscle,force_N,max_force_N,sd_N,low90_N,high90_N\n";
+  for (const auto& c : v.commands)
+    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", c.name, c.force, c.max_force,
+                       c.sd, c.low, c.high);
+  write_text(base + ".csv", csv);
+}
+
+void write_shape(const Model& model, const Positions& x, const std::string& path) {
+  VtkData data;
+  VtkArray displacement{3, {}, false};
+  for (size_t a = 0; a < model.mesh.nodes.size(); ++a) {
+    data.points.push_back(node_position(x, int(a)));
+    const Vec3 u = data.points.back() - model.mesh.nodes[a];
+    displacement.values.insert(displacement.values.end(), {u[0], u[1], u[2]});
+  }
+  for (const auto& e : model.mesh.elements) {
+    data.cells.emplace_back(e.begin(), e.end());
+    data.types.push_back(12);
+  }
+  data.point_data["displacement_m"] = std::move(displacement);
+  write_vtu(path, data);
+}
+
+}  // namespace genio

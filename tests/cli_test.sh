@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# The command line as a user meets it: exit statuses, one-line errors, JSON keys, files.
+set -u
+genio=$1 source=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failed=0
+# expect STATUS WORD COMMAND...: exit status, and WORD somewhere in what it prints
+expect() {
+  local status=$1 word=$2; shift 2
+  "$@" >out 2>err; local got=$?
+  if [ $got -ne "$status" ] || ! grep -qF -- "$word" out err; then
+    echo "FAILED: $* -> $got, expected $status and '$word'"; cat out err; failed=1
+  fi
+  # An error of ours is one line.
+  if [ "$status" -eq 2 ] && grep -q '^genio:' err && [ "$(grep -c . err)" -ne 1 ]; then
+    echo "FAILED: $* prints more than one line"; cat err; failed=1
+  fi
+}
+example=$source/data/examples/example_shape.csv
+expect 0 '"min_corner_jacobian_ratio"' "$genio" info --json
+expect 0 '"volume_change_percent"' "$genio" forward --force GGP=2 --json --out shape
+[ -s shape/shape.vtu ] || { echo "FAILED: no shape.vtu"; failed=1; }
+expect 2 'did you mean GGP' "$genio" forward --force GPG=2
+expect 2 'above the muscle' "$genio" forward --force GGP=500
+expect 2 'expected NAME=NUMBER' "$genio" forward --force GGP=nan
+expect 2 'did you mean gravity.z' "$genio" forward --effect gravity.z=-9.81 --effect gravity.zz=1
+expect 2 'no such model file' "$genio" info --model nowhere
+expect 0 '"verdict":"explained"' "$genio" invert --target "$example" --json --out results
+for kind in svg png csv json vtu; do
+  [ -s results/frame00001.$kind ] || { echo "FAILED: no results/frame00001.$kind"; failed=1; }
+done
+expect 2 'no such file' "$genio" invert --target nothing.csv
+printf 'frame,point,x_mm,z_mm\n1,1,80,abc\n' >bad.csv
+expect 2 'bad.csv:2: field z_mm' "$genio" invert --target bad.csv
+printf 'frame,point,x_mm,z_mm\n1,1,0.08,0.11\n1,2,0.09,0.12\n1,3,0.1,0.11\n' >metres.csv
+expect 2 'Wrong units' "$genio" invert --target metres.csv
+expect 2 'expected A-B' "$genio" invert --target "$example" --frames 3-x
+expect 2 'no such frame' "$genio" invert --target "$example" --frames 7
+{ printf 'sp\t1\td\tword\ta\t0\t0\t0\t0\t0\t0'; for k in $(seq 42); do printf '\t%d\t3' "$k"; done; echo; } >fan.tsv
+expect 2 '--palate' "$genio" invert --target fan.tsv
+expect 1 'genio serve' "$genio" request --lcm tcpq://127.0.0.1:7799 --target "$example" --timeout-s 1
+exit $failed

@@ -1,0 +1,147 @@
+// Every effect obeys the same laws: force is minus the energy's derivative, stiffness minus the
+// force's, symmetric; internal effects do not feel rigid motion; parameter derivatives are exact.
+// A difference quotient's error falls with the step, then rises with rounding: a V.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "forward/effects/gravity.hpp"
+#include "tests/forward/small_model.hpp"
+
+namespace genio {
+namespace {
+
+/// Relative errors of central differences for steps 1e-3 ... 1e-9.
+template <class Error>
+std::vector<double> errors_over_steps(Error error) {
+  std::vector<double> e;
+  for (double h = 1e-3; h > 5e-10; h /= 10) e.push_back(error(h));
+  return e;
+}
+
+void expect_v(const std::vector<double>& e, double bottom) {
+  const double best = *std::min_element(e.begin(), e.end());
+  EXPECT_LT(best, bottom);
+  // Falls before and rises after, unless the function is linear or quadratic and rounding is all.
+  if (e.front() > 1e-7) {
+    EXPECT_LT(e[1], 0.2 * e.front());
+  }
+  EXPECT_GT(e.back(), best);
+}
+
+class EffectLaw : public testing::TestWithParam<std::string> {
+ protected:
+  EffectLaw() : model(test::small_model()), effect(find_effect(model, GetParam())), p(default_parameters(model)) {
+    set_command(model, "GGP_L", 0.2, p);
+    set_command(model, "GGP_R", 0.1, p);
+    for (size_t e = 0; e < model.effects.size(); ++e)
+      if (model.effects[e].get() == effect) values = effect_parameters(model, p, int(e));
+    x = test::shaken(model, 4e-4, 3);
+    for (int a = 0; a < int(model.mesh.nodes.size()); ++a) x[3 * a + 2] += 3e-4;  // some touch
+    direction = test::shaken(model, 1.0, 11) - model.rest;
+    direction *= 3e-2 / direction.norm();
+  }
+  Forces force_at(const Positions& at) const {
+    Forces f = Forces::Zero(at.size());
+    effect->add_force(at, values, f);
+    return f;
+  }
+  Model model;
+  const Effect* effect;
+  Parameters p;
+  EffectParameters values;
+  Positions x;
+  Vector direction;
+};
+
+TEST_P(EffectLaw, ForceIsMinusTheEnergysDerivative) {
+  const double exact = -force_at(x).dot(direction);
+  ASSERT_NE(exact, 0.0);
+  expect_v(errors_over_steps([&](double h) {
+    const double quotient = (effect->energy(x + h * direction, values) - effect->energy(x - h * direction, values)) / (2 * h);
+    return std::abs(quotient - exact) / std::abs(exact);
+  }), 1e-7);
+}
+
+TEST_P(EffectLaw, StiffnessIsMinusTheForcesDerivativeAndSymmetric) {
+  Stiffness k(model.pattern);
+  effect->add_stiffness(x, values, k);
+  const Vector exact = k.multiply(direction);
+  const double scale = std::max(exact.norm(), 1e-12);
+  if (GetParam() == "gravity") {
+    EXPECT_EQ(exact.norm(), 0.0);
+    return;
+  }
+  expect_v(errors_over_steps([&](double h) {
+    return ((force_at(x - h * direction) - force_at(x + h * direction)) / (2 * h) - exact).norm() / scale;
+  }), 1e-6);
+  const Vector other = test::shaken(model, 1.0, 23) - model.rest;
+  EXPECT_NEAR(other.dot(exact), direction.dot(k.multiply(other)), 1e-12 * scale * other.norm());
+}
+
+TEST_P(EffectLaw, StepStiffnessEqualsStiffnessWithoutAStep) {
+  Stiffness exact(model.pattern), step(model.pattern);
+  effect->add_stiffness(x, values, exact);
+  effect->add_step_stiffness(x, x, values, step);
+  EXPECT_LE((exact.multiply(direction) - step.multiply(direction)).norm(), 1e-12 * exact.multiply(direction).norm());
+}
+
+TEST_P(EffectLaw, ParameterDerivativesAreExact) {
+  for (size_t k = 0; k < effect->parameters().size(); ++k) {
+    Forces exact = Forces::Zero(x.size());
+    effect->add_force_derivative(x, values, int(k), exact);
+    std::vector<double> up(values.begin(), values.end()), down = up;
+    const double h = 1e-4 * std::max(1.0, std::abs(up[k]));
+    up[k] += h, down[k] -= h;
+    Forces plus = Forces::Zero(x.size()), minus = plus;
+    effect->add_force(x, up, plus);
+    effect->add_force(x, down, minus);
+    EXPECT_LE(((plus - minus) / (2 * h) - exact).norm(), 1e-8 * std::max(exact.norm(), 1e-12)) << k;
+  }
+}
+
+TEST_P(EffectLaw, InternalForcesBalanceAndIgnoreRigidMotion) {
+  if (GetParam() != "elasticity") return;  // the others act from outside, or have a fixed anchor
+  const Forces f = force_at(x);
+  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+  for (Eigen::Index a = 0; a < x.size() / 3; ++a) {
+    sum += f.segment<3>(3 * a);
+    moment += Vec3(x.segment<3>(3 * a)).cross(Vec3(f.segment<3>(3 * a)));
+  }
+  EXPECT_LE(sum.norm(), 1e-12 * f.norm());
+  EXPECT_LE(moment.norm(), 1e-12 * f.norm());
+  const Mat3 r = Eigen::AngleAxisd(0.9, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  Positions y(x.size());
+  for (Eigen::Index a = 0; a < x.size() / 3; ++a) y.segment<3>(3 * a) = r * x.segment<3>(3 * a) + Vec3(0.1, -0.2, 0.3);
+  EXPECT_NEAR(effect->energy(y, values), effect->energy(x, values), 1e-12 * effect->energy(x, values));
+  const Forces turned = force_at(y);
+  for (Eigen::Index a = 0; a < x.size() / 3; ++a)
+    EXPECT_LE((turned.segment<3>(3 * a) - r * f.segment<3>(3 * a)).norm(), 1e-10 * f.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Battery, EffectLaw,
+                         testing::Values("elasticity", "muscles", "gravity", "palate_contact"),
+                         [](const auto& parameter) { return parameter.param; });
+
+TEST(Elasticity, EnergyIsInfiniteForInvertedTissue) {
+  const Model m = test::small_model();
+  Positions x = m.rest;
+  x[3 * 30 + 2] -= 0.03;
+  EXPECT_TRUE(std::isinf(energy(m, x, default_parameters(m))));
+}
+
+TEST(Gravity, PullsWithTheWholeWeight) {
+  const Model m = test::small_model();
+  const Gravity g(m.mesh, 1000, Vec3(0, 0, -10));
+  Forces f = Forces::Zero(m.rest.size());
+  const double p[] = {0, 0, -10};
+  g.add_force(m.rest, p, f);
+  double sum = 0;
+  for (Eigen::Index i = 2; i < f.size(); i += 3) sum += f[i];
+  EXPECT_NEAR(sum, -1e4 * mesh_volume(m.mesh, m.rest), 1e-12);
+}
+
+}  // namespace
+}  // namespace genio

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "forward/sensitivity.hpp"
+#include "tests/forward/small_model.hpp"
+
+namespace genio {
+namespace {
+
+TEST(Equilibrium, IsTheSameFromAnyStart) {
+  const Model m = read_model(test::generic_model());
+  Workspace ws(m);
+  Parameters p = default_parameters(m);
+  set_command(m, "GGP", 3, p);
+  set_command(m, "HG", 1, p);
+  const auto from_rest = solve_equilibrium(m, p, m.rest, ws);
+  ASSERT_TRUE(from_rest) << from_rest.message;
+  Parameters other = default_parameters(m);
+  set_command(m, "STY", 1.5, other);
+  const auto elsewhere = solve_equilibrium(m, other, m.rest, ws);
+  ASSERT_TRUE(elsewhere) << elsewhere.message;
+  const auto again = solve_equilibrium(m, p, elsewhere.x, ws);
+  ASSERT_TRUE(again) << again.message;
+  EXPECT_LT((again.x - from_rest.x).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(Equilibrium, KeepsTheVolumeAndMidsagittalSymmetry) {
+  const Model m = read_model(test::generic_model());
+  Workspace ws(m);
+  Parameters p = default_parameters(m);
+  set_command(m, "GGP", 4, p);
+  const auto e = solve_equilibrium(m, p, m.rest, ws);
+  ASSERT_TRUE(e) << e.message;
+  EXPECT_NEAR(mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest), 1, 1e-3);
+  EXPECT_LT(std::abs(e.x[3 * m.landmarks.dorsum + 1]), 1e-4);
+  EXPECT_LT(max_penetration(m, e.x), 1e-4);
+}
+
+TEST(Equilibrium, FailureIsAStatusWithAReason) {
+  const Model m = test::small_model();
+  Workspace ws(m);
+  Parameters p = default_parameters(m);
+  p[0] = std::numeric_limits<double>::quiet_NaN();
+  const auto e = solve_equilibrium(m, p, m.rest, ws);
+  EXPECT_FALSE(e);
+  EXPECT_FALSE(e.message.empty());
+}
+
+TEST(Equilibrium, SmallDeformationAgreesForSmallForces) {
+  auto d = test::small_block();
+  d.effects.erase("gravity");
+  const Model m = build_model(d, "block");
+  Workspace ws(m);
+  Parameters p = default_parameters(m);
+  set_command(m, "GGP_L", 1e-4, p);
+  const auto large = solve_equilibrium(m, p, m.rest, ws);
+  const auto small = solve_small_deformation(m, p, ws);
+  ASSERT_TRUE(large);
+  EXPECT_LT((large.x - small.x).norm(), 0.01 * (large.x - m.rest).norm());
+}
+
+TEST(Sensitivity, IsTheDerivativeOfTheEquilibrium) {
+  const Model m = test::small_model();
+  Workspace ws(m);
+  Parameters p = default_parameters(m);
+  set_command(m, "GGP_L", 0.02, p);
+  SolveOptions tight;
+  tight.tolerance = 1e-12;
+  const auto e = solve_equilibrium(m, p, m.rest, ws, tight);
+  ASSERT_TRUE(e) << e.message;
+  std::vector<int> all;
+  for (size_t k = 0; k < m.parameters.size(); ++k) all.push_back(int(k));
+  const Matrix s = sensitivity(m, e, all, ws);
+  for (int k : all) {
+    const double h = 1e-5 * std::max(std::abs(p[k]), m.parameters[k].info.unit == "N" ? 0.02 : 1e-2);
+    Parameters up = p, down = p;
+    up[k] += h, down[k] -= h;
+    const auto plus = solve_equilibrium(m, up, e.x, ws, tight), minus = solve_equilibrium(m, down, e.x, ws, tight);
+    const Vector quotient = (plus.x - minus.x) / (2 * h);
+    EXPECT_LE((quotient - s.col(k)).norm(), 2e-4 * std::max(s.col(k).norm(), 1e-12)) << m.parameters[k].name;
+  }
+}
+
+}  // namespace
+}  // namespace genio

@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+
+#include "forward/model_file.hpp"
+
+namespace genio::test {
+
+/// A distorted block of 3 x 2 x 2 elements with two muscles, a palate above, gravity: small enough
+/// to check every derivative by differences.
+ModelDescription small_block();
+Model small_model();
+
+/// The generic tongue as shipped.
+std::string generic_model();
+
+/// Folder of reference data, or empty where it is absent.
+std::string reference_folder();
+
+/// Displacements with a fixed seed, of `size` [m], that leave tissue the right side out.
+Positions shaken(const Model& model, double size, unsigned seed);
+
+}  // namespace genio::test

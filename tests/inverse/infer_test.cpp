@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include "inverse/infer.hpp"
+#include "inverse/objective.hpp"
+#include "tests/forward/small_model.hpp"
+
+namespace genio {
+namespace {
+
+class Infer : public testing::Test {
+ protected:
+  Target simulated(const std::vector<std::pair<const char*, double>>& forces) {
+    Parameters p = default_parameters(m);
+    for (const auto& [name, f] : forces) set_command(m, name, f, p);
+    const auto e = solve_equilibrium(m, p, m.rest, ws);
+    EXPECT_TRUE(e) << e.message;
+    Target t;
+    for (const Vec2& q : TongueLine(m).sample(e.x, 40)) t.curve.push_back({q, 5e-4});
+    return t;
+  }
+  const Model m = read_model(test::generic_model());
+  Workspace ws{m};
+};
+
+TEST_F(Infer, MeetsASimulatedShapeFromRest) {
+  const auto a = infer(m, simulated({{"GGP", 2.8}, {"SL", 1.2}, {"GH", 0.9}}), Prior{}, ws);
+  ASSERT_EQ(a.status, InferStatus::converged) << a.message;
+  EXPECT_LT(1e3 * a.rms, 0.05);
+  EXPECT_EQ(a.verdict, Verdict::explained);
+  for (const auto& c : a.commands) {
+    EXPECT_GE(c.force, 0);
+    EXPECT_LE(c.force, c.max_force);
+    EXPECT_LE(c.low, c.force + 1e-9);
+    EXPECT_GE(c.high, c.force - 1e-9);
+    EXPECT_GT(c.sd, 0);
+  }
+}
+
+TEST_F(Infer, GradientIsTheDerivativeOfTheObjective) {
+  const Comparison comparison(m, simulated({{"GGP", 2}, {"HG", 1}}));
+  const InferOptions options;
+  Objective objective(m, comparison, Prior{}, options, ws);
+  const Vector z = Vector::Constant(Eigen::Index(objective.commands().size()), 0.02);
+  const Vector gradient = objective.derivatives(z)->gradient;
+  for (Eigen::Index k = 0; k < z.size(); ++k) {
+    const double h = 1e-4;
+    const double up = objective.value(z + h * Vector::Unit(z.size(), k))->value;
+    const double down = objective.value(z - h * Vector::Unit(z.size(), k))->value;
+    EXPECT_NEAR((up - down) / (2 * h), gradient[k], 1e-4 * gradient.norm()) << objective.commands()[size_t(k)].name;
+  }
+}
+
+TEST_F(Infer, ShapeBeyondAllMusclesIsNotExplained) {
+  Target t;
+  for (const Vec2& q : TongueLine(m).sample(m.rest, 30)) t.curve.push_back({q + Vec2(-0.012, -0.012), 3e-4});
+  InferOptions options;
+  options.deadline_s = 60;
+  const auto a = infer(m, t, Prior{}, ws, options);
+  EXPECT_NE(a.verdict, Verdict::explained);
+  EXPECT_FALSE(a.message.empty());
+}
+
+TEST_F(Infer, DeadlineAndCancelEndTheWork) {
+  const Target t = simulated({{"GGP", 3}});
+  InferOptions options;
+  options.deadline_s = 1e-3;
+  EXPECT_EQ(infer(m, t, Prior{}, ws, options).status, InferStatus::deadline);
+  InferOptions cancel;
+  cancel.cancelled = [] { return true; };
+  EXPECT_EQ(infer(m, t, Prior{}, ws, cancel).status, InferStatus::cancelled);
+}
+
+TEST_F(Infer, EmptyTargetIsTheCallersMistake) {
+  EXPECT_THROW(infer(m, Target{}, Prior{}, ws), InputError);
+}
+
+}  // namespace
+}  // namespace genio

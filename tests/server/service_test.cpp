@@ -1,0 +1,111 @@
+// The service over tcpq on 127.0.0.1, through a hub on a free port.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "server/client.hpp"
+#include "server/hub.hpp"
+#include "server/service.hpp"
+#include "tests/forward/small_model.hpp"
+
+namespace genio {
+namespace {
+
+class Service : public testing::Test {
+ protected:
+  void SetUp() override {
+    options.url = "tcpq://127.0.0.1:" + std::to_string(hub.port());
+    thread = std::thread([this] { serve(model, options, stop); });
+    client = std::make_unique<Client>(options.url);
+    ASSERT_TRUE(client->status(20));
+  }
+  void TearDown() override {
+    client.reset();
+    stop = true;
+    thread.join();
+  }
+  shape_request_t one_point() const {
+    const Vec3 top = 1e3 * model.mesh.nodes[size_t(model.landmarks.dorsum)];
+    shape_request_t r{};
+    r.point_count = 1;
+    r.x_mm = {top[0]}, r.y_mm = {0}, r.z_mm = {top[2]}, r.sigma_mm = {1}, r.kind = {"dorsum"};
+    r.bilateral = -1;
+    return r;
+  }
+  const Model model = read_model(test::generic_model());
+  Hub hub{0};
+  ServiceOptions options;
+  std::atomic<bool> stop{false};
+  std::thread thread;
+  std::unique_ptr<Client> client;
+};
+
+TEST_F(Service, AnswersAShape) {
+  const auto reply = client->request(one_point(), 60);
+  ASSERT_TRUE(reply);
+  EXPECT_EQ(reply->status, "converged") << reply->message;
+  EXPECT_EQ(reply->verdict, "explained");
+  EXPECT_EQ(reply->muscle_count, 11);
+  EXPECT_GT(reply->line_count, 10);
+}
+
+TEST_F(Service, SameIdGetsTheSameReply) {
+  auto r = one_point();
+  r.id = "twice";
+  const auto first = client->request(r, 60);
+  const auto second = client->request(r, 60);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->wall_s, second->wall_s);  // computed once
+  EXPECT_EQ(first->force_N, second->force_N);
+}
+
+TEST_F(Service, BadRequestsAreRefusedAndServingGoesOn) {
+  auto nan = one_point();
+  nan.x_mm[0] = std::nan("");
+  auto empty = one_point();
+  empty.point_count = 0;
+  empty.x_mm.clear(), empty.y_mm.clear(), empty.z_mm.clear(), empty.sigma_mm.clear(), empty.kind.clear();
+  auto unknown = one_point();
+  unknown.kind[0] = "tipp";
+  auto far = one_point();
+  far.x_mm[0] = 1e5;
+  for (const auto& [request, word] : {std::pair{nan, "point 1"}, {empty, "no points"}, {unknown, "did you mean tip"}, {far, "Wrong units"}}) {
+    const auto reply = client->request(request, 30);
+    ASSERT_TRUE(reply);
+    EXPECT_EQ(reply->status, "failed");
+    EXPECT_NE(reply->message.find(word), std::string::npos) << reply->message;
+  }
+  const auto good = client->request(one_point(), 60);
+  ASSERT_TRUE(good);
+  EXPECT_EQ(good->status, "converged");
+}
+
+TEST_F(Service, GarbageOnTheRequestChannelDoesNoHarm) {
+  Link link(options.url);
+  bool told = false;
+  link.subscribe("GENIO_REPLY.undecodable", [&](const std::string&, const void*, size_t) { told = true; });
+  link.wait(100);
+  link.publish("GENIO_REQUEST", {1, 2, 3});
+  link.publish("GENIO_REQUEST", std::vector<uint8_t>(100000, 0xff));
+  for (int i = 0; i < 50 && !told; ++i) link.wait(100);
+  EXPECT_TRUE(told);
+  EXPECT_TRUE(client->request(one_point(), 60));
+}
+
+TEST(Hub, PortInUseIsAnError) {
+  const Hub first(0);
+  EXPECT_THROW(Hub second(first.port()), std::runtime_error);
+}
+
+TEST(Url, LocalTcpqIsRecognised) {
+  EXPECT_EQ(local_tcpq_port("tcpq://127.0.0.1:7712"), 7712);
+  EXPECT_EQ(local_tcpq_port("tcpq://127.0.0.1"), 7700);
+  EXPECT_EQ(local_tcpq_port("tcpq://10.0.0.1:7700"), 0);
+  EXPECT_EQ(local_tcpq_port("udpm://239.255.76.67:7667"), 0);
+  EXPECT_THROW(Link("nonsense://x"), InputError);
+}
+
+}  // namespace
+}  // namespace genio
