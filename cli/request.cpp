@@ -102,8 +102,9 @@ Runner add_request(CLI::App& app) {
   app.add_flag("--json", o->json, "One JSON object a frame on standard output");
   app.add_option("--out", o->out, "Folder for pictures and numbers");
   auto* status = app.add_subcommand("status", "What the server is doing");
-  status->add_flag("--json", o->json, "On one line");
+  status->fallthrough();
   auto* cancel = app.add_subcommand("cancel", "Withdraw a request");
+  cancel->fallthrough();
   cancel->add_option("id", o->cancel_id, "Id of the request")->required();
   app.footer("Example: genio request --target data/examples/example_shape.csv");
   return [o, status, cancel]() -> int {

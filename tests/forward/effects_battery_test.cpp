@@ -39,7 +39,7 @@ class EffectLaw : public testing::TestWithParam<std::string> {
     for (size_t e = 0; e < model.effects.size(); ++e)
       if (model.effects[e].get() == effect) values = effect_parameters(model, p, int(e));
     x = test::shaken(model, 4e-4, 3);
-    for (int a = 0; a < int(model.mesh.nodes.size()); ++a) x[3 * a + 2] += 3e-4;  // some touch
+    for (int a = 0; a < int(model.mesh.nodes.size()); ++a) x[3 * a + 2] += 1.6e-3;  // some touch
     direction = test::shaken(model, 1.0, 11) - model.rest;
     direction *= 3e-2 / direction.norm();
   }
