@@ -40,7 +40,7 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
     // From rest the first steps tend to set muscles against each other far beyond what the shape
     // needs. Effort that counts more keeps them near; its optimum is a start for the real one.
     InferOptions rough = options;
-    rough.tolerance = 0.1;
+    rough.tolerance = 1e-2;
     rough.max_iterations = 15;
     objective.set_effort_sd(prior.effort_sd / 4);
     const OptimiserResult near = minimise(objective, start, false, rough);
@@ -54,7 +54,12 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
                   : objective.stopped() ? objective.stop_reason() : InferStatus::failed;
   answer.message = optimum.message;
   if (answer.status == InferStatus::converged) {
-    if (const auto* point = objective.derivatives(optimum.activations)) {
+    // What the barrier holds off a bound it would reach belongs on it.
+    Vector rounded = optimum.activations;
+    for (auto& z : rounded) z = z < 1e-3 ? 0.0 : z > 1 - 1e-3 ? 1.0 : z;
+    const auto* point = objective.derivatives(rounded);
+    if (!point) point = objective.derivatives(optimum.activations);
+    if (point) {
       answer.activations = point->activations;
       answer.shape = point->equilibrium.x;
       answer.residuals = point->residuals;

@@ -15,14 +15,14 @@ namespace genio {
 
 /// What is believed of the commands before the shape is seen.
 struct Prior {
-  double effort_sd = 0.2;  ///< standard deviation of the activation about 0
+  double effort_sd = 0.1;  ///< standard deviation of the activation about 0
 };
 
 struct InferOptions {
   std::optional<bool> bilateral;  ///< unset: left and right together for midsagittal targets
   double deadline_s = 0;          ///< 0: none
   int max_iterations = 60;
-  double tolerance = 1e-3;        ///< of the gradient with respect to activations
+  double tolerance = 1e-4;        ///< of the fall of the objective still to be had
   Vector start;                   ///< activations to start from; empty: rest
   std::optional<Positions> start_shape;        ///< the equilibrium shape of `start`
   std::function<bool()> cancelled;             ///< asked between steps; true ends the work

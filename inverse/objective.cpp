@@ -1,12 +1,15 @@
 #include "inverse/objective.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 
 #include "forward/sensitivity.hpp"
 
 namespace genio {
 namespace {
 
+constexpr double near_bound = 2e-3;    // activation
 constexpr double longest_step = 5e-3;  // of any node between two points [m]
 
 }  // namespace
@@ -113,6 +116,18 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
   anchor_ = std::move(point);
   have_anchor_ = true;
   return &anchor_;
+}
+
+double Objective::promised_gain() const {
+  if (!have_anchor_) return std::numeric_limits<double>::infinity();
+  const Vector &z = anchor_.activations, &g = anchor_.gradient;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < z.size(); ++i)
+    if (!(z[i] < near_bound && g[i] > 0) && !(z[i] > 1 - near_bound && g[i] < 0)) free.push_back(i);
+  if (free.empty()) return 0;
+  const Matrix h = hessian(anchor_)(free, free);
+  const Vector slope = g(free);
+  return 0.5 * slope.dot(h.ldlt().solve(slope));
 }
 
 Matrix Objective::hessian(const ObjectivePoint& point) const {

@@ -37,6 +37,12 @@ class Objective {
   /// Gauss-Newton Hessian at a point whose derivatives are known.
   Matrix hessian(const ObjectivePoint& point) const;
 
+  /// Half the fall of the objective that the Gauss-Newton model still promises within the bounds at
+  /// the latest point with derivatives; infinite before there is one.
+  double promised_gain() const;
+  /// The latest point with derivatives; nullptr before there is one.
+  const ObjectivePoint* latest() const { return have_anchor_ ? &anchor_ : nullptr; }
+
   bool stopped();
   InferStatus stop_reason() const { return stop_; }
   const std::string& last_failure() const { return failure_; }

@@ -70,13 +70,17 @@ class CommandProblem final : public Ipopt::TNLP {
                              Ipopt::IpoptCalculatedQuantities*) override {
     result_.iterations = iteration;
     if (options_.progress) options_.progress(iteration, best_rms_);
-    return !objective_.stopped();
+    // Stop on what the objective can still gain, in its own unit: with a large misfit the gradient
+    // never gets as small as with a small one.
+    settled_ = iteration > 0 && objective_.promised_gain() < options_.tolerance;
+    return !settled_ && !objective_.stopped();
   }
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
                          const Number*, Index, const Number*, const Number*, Number,
                          const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
     final_ = Map<const Vector>(x, n);
   }
+  bool settled() const { return settled_; }
   const Vector& final_point() const { return final_; }
   const Vector& best_point() const { return best_; }
 
@@ -92,6 +96,7 @@ class CommandProblem final : public Ipopt::TNLP {
   OptimiserResult& result_;
   Vector final_, best_;
   double best_value_ = 0, best_rms_ = 0;
+  bool settled_ = false;
 };
 
 }  // namespace
@@ -116,8 +121,8 @@ OptimiserResult minimise(Objective& objective, const Vector& start, bool warm,
   set("print_level", 0);
   set("sb", "yes");
   set("linear_solver", "mumps");
-  set("tol", options.tolerance);
-  set("acceptable_tol", 100 * options.tolerance);
+  set("tol", 1e-4);
+  set("acceptable_tol", 1e-2);
   set("acceptable_iter", 4);
   set("max_iter", options.max_iterations);
   set("nlp_scaling_method", "none");
@@ -132,11 +137,13 @@ OptimiserResult minimise(Objective& objective, const Vector& start, bool warm,
   if (app->Initialize("") != Ipopt::Solve_Succeeded)
     throw std::logic_error("Ipopt could not be initialised");
   const auto status = app->OptimizeTNLP(problem);
-  result.converged =
+  const bool solved =
       status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level;
-  result.activations = result.converged && problem->final_point().size()
-                           ? problem->final_point()
-                           : problem->best_point();
+  result.converged = solved || (problem->settled() && !objective.stopped()) ||
+                     (!objective.stopped() && objective.promised_gain() < 100 * options.tolerance);
+  if (solved && problem->final_point().size()) result.activations = problem->final_point();
+  else if (result.converged) result.activations = objective.latest()->activations;
+  else result.activations = problem->best_point();
   if (!result.converged)
     result.message = fmt::format("the optimiser stopped (Ipopt status {}){}{}", int(status),
                                  objective.last_failure().empty() ? "" : ": ",
