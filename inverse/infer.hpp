@@ -15,7 +15,7 @@ namespace genio {
 
 /// What is believed of the commands before the shape is seen.
 struct Prior {
-  double effort_sd = 0.1;  ///< standard deviation of the activation about 0
+  double effort_sd = 0.2;  ///< standard deviation of the activation about 0
 };
 
 struct InferOptions {

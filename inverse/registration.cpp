@@ -56,8 +56,8 @@ struct Problem {
     double sum = 0, misfit = 0;
     for (const Vec2& q : trace) sum += palate.offset(s(q)).squaredNorm() / (palate_sd * palate_sd);
     for (const Vec2& q : contours) misfit += tongue.offset(s(q)).squaredNorm() / (tongue_sd * tongue_sd);
-    // All contours together weigh as much as 20 independent points.
-    if (!contours.empty()) sum += 20 * misfit / double(contours.size());
+    // All contours together weigh as much as 60 independent points.
+    if (!contours.empty()) sum += 60 * misfit / double(contours.size());
     return sum + v[0] * v[0] / (tilt_sd * tilt_sd) + v[1] * v[1] / (scale_sd * scale_sd);
   }
 };

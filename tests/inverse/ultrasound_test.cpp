@@ -19,7 +19,7 @@ TEST(Ultrasound, FramesGetAnAnswerOrAStatedReason) {
   EXPECT_EQ(file.frames.size(), 1013u);
   const auto r = register_by_palate(m, midsagittal_points(palate).front(), midsagittal_points(file));
   EXPECT_LT(r.palate_rms, 2e-3);
-  EXPECT_NEAR(r.transform.scale, 1, 0.1);
+  EXPECT_NEAR(r.transform.scale, 1, 0.25);  // another speaker than the model
   int answered = 0;
   for (size_t i : {size_t(20), size_t(500), size_t(900)}) {
     const Target t = make_target(m, file.frames[i], r.transform, 1.5e-3);
