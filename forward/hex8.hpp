@@ -50,4 +50,12 @@ inline Eigen::Matrix<double, 8, 3> derivatives(const Vec3& xi) {
   return d;
 }
 
+/// Jacobian matrix of the trilinear map whose corner `a` lies at position(a), from derivatives().
+template <class Position>
+Mat3 jacobian(const Position& position, const Eigen::Matrix<double, 8, 3>& derivative) {
+  Mat3 j = Mat3::Zero();
+  for (int a = 0; a < 8; ++a) j += position(a) * derivative.row(a);
+  return j;
+}
+
 }  // namespace genio::hex8

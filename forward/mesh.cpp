@@ -13,10 +13,8 @@ namespace {
 
 /// Jacobian determinant of element `e` in the shape `x` at the local point `xi` [m^3].
 double jacobian_at(const HexMesh& mesh, const Positions& x, int e, const Vec3& xi) {
-  const auto d = hex8::derivatives(xi);
-  Mat3 j = Mat3::Zero();
-  for (int a = 0; a < 8; ++a) j += node_position(x, mesh.elements[e][a]) * d.row(a);
-  return j.determinant();
+  const auto corner = [&](int a) -> Vec3 { return node_position(x, mesh.elements[e][a]); };
+  return hex8::jacobian(corner, hex8::derivatives(xi)).determinant();
 }
 
 }  // namespace
@@ -28,13 +26,11 @@ Positions rest_positions(const HexMesh& mesh) {
 }
 
 std::array<double, 8> corner_jacobians(const HexMesh& mesh, int element) {
+  const auto corner = [&](int a) -> const Vec3& { return mesh.nodes[mesh.elements[element][a]]; };
   std::array<double, 8> result;
   for (int c = 0; c < 8; ++c) {
-    const auto d =
-        hex8::derivatives(Vec3(hex8::corner[c][0], hex8::corner[c][1], hex8::corner[c][2]));
-    Mat3 j = Mat3::Zero();
-    for (int a = 0; a < 8; ++a) j += mesh.nodes[mesh.elements[element][a]] * d.row(a);
-    result[c] = j.determinant();
+    const Vec3 xi(hex8::corner[c][0], hex8::corner[c][1], hex8::corner[c][2]);
+    result[c] = hex8::jacobian(corner, hex8::derivatives(xi)).determinant();
   }
   return result;
 }

@@ -15,7 +15,7 @@ constexpr double longest_gap = 0.012;  // between neighbouring knots of one cont
 /// Where things stand in a row.
 struct Layout {
   std::vector<std::pair<size_t, size_t>> knots;  // columns of x and y
-  size_t label = 3, time = 1, seconds_columns = 0;
+  size_t label = 3, time = 1;
 };
 
 /// Columns "X0 Tongue", "Y0 Tongue", ... of the first spline named in a header.

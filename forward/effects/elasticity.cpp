@@ -37,8 +37,8 @@ Elasticity::Elasticity(const HexMesh& mesh, const TissueConstants& c)
       for (int a = 0; a < 8; ++a) batch.node[a][l] = mesh.elements[e][a];
       for (int q = 0; q < 8; ++q) {
         const auto d = hex8::derivatives(points[q]);
-        Mat3 jacobian = Mat3::Zero();
-        for (int a = 0; a < 8; ++a) jacobian += mesh.nodes[mesh.elements[e][a]] * d.row(a);
+        const auto corner = [&](int a) -> const Vec3& { return mesh.nodes[mesh.elements[e][a]]; };
+        const Mat3 jacobian = hex8::jacobian(corner, d);
         const Eigen::Matrix<double, 8, 3> gradient = d * jacobian.inverse();
         for (int a = 0; a < 8; ++a)
           for (int i = 0; i < 3; ++i) batch.gradient[q][a][i][l] = gradient(a, i);

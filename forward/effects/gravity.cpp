@@ -12,9 +12,9 @@ Gravity::Gravity(const HexMesh& mesh, double density, const Vec3& acceleration)
     for (const auto& xi : hex8::gauss_points()) {
       const auto d = hex8::derivatives(xi);
       const auto n = hex8::values(xi);
-      Mat3 j = Mat3::Zero();
-      for (int a = 0; a < 8; ++a) j += mesh.nodes[element[a]] * d.row(a);
-      for (int a = 0; a < 8; ++a) mass_[element[a]] += density * n[a] * j.determinant();
+      const auto corner = [&](int a) -> const Vec3& { return mesh.nodes[element[a]]; };
+      const double volume = hex8::jacobian(corner, d).determinant();
+      for (int a = 0; a < 8; ++a) mass_[element[a]] += density * n[a] * volume;
     }
   const char* axis[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) info_[i] = {axis[i], "m/s^2", acceleration[i], -20, 20, 0, true};

@@ -1,0 +1,162 @@
+#pragma once
+// The steps of one Newton solve; equilibrium.cpp decides which to take. Not for other files.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "forward/equilibrium.hpp"
+
+namespace genio {
+
+inline constexpr int stage_iterations = 10;   // Newton steps towards a part of the load
+inline constexpr int patient_iterations = 14;  // conjugate gradients worth less than a factorisation
+inline constexpr double force_floor = 1e-3;  // [N]
+
+/// Everything one Newton solve looks at, so that its steps read like the method.
+class Newton {
+ public:
+  Newton(const Model& model, const Parameters& p, Workspace& ws, int factorizations = 1 << 30)
+      : model_(model),
+        p_(p),
+        ws_(ws),
+        last_factorization_(ws.cholesky.factorizations() + factorizations) {}
+
+  bool spent() const { return ws_.cholesky.factorizations() > last_factorization_; }
+
+  Vector residual(const Positions& x) const { return model_.dofs.reduce(force(model_, x, p_)); }
+  double potential(const Positions& x) const { return energy(model_, x, p_); }
+
+  /// Size of the loads the residual is compared with [N].
+  double reference(const Positions& x) const {
+    double sum = 0;
+    for (size_t e = 0; e < model_.effects.size(); ++e) {
+      if (model_.effects[e]->name() == "elasticity") continue;
+      Forces f = Forces::Zero(x.size());
+      model_.effects[e]->add_force(x, effect_parameters(model_, p_, int(e)), f);
+      sum += f.squaredNorm();
+    }
+    return std::max(std::sqrt(sum), force_floor);
+  }
+
+  /// The tangent for a step from x, itself reached by a step from `previous`.
+  void assemble(const Positions& x, const Positions& previous) {
+    step_stiffness(model_, x, previous, p_, ws_.stiffness);
+    ws_.reduced.assign(ws_.stiffness);
+  }
+
+  /// Direction K^-1 r; away from equilibrium K may be indefinite, then a shift makes it descend.
+  Vector direction(const Vector& r, double accuracy) {
+    Vector d;
+    if (ws_.cholesky.valid() && conjugate_gradients(r, accuracy, d)) return d;
+    if (!ws_.cholesky.factorize(ws_.reduced)) {
+      const double mean = ws_.reduced.trace() / double(r.size());
+      shift_ = std::max(1e-4, shift_ / 8);
+      while (!ws_.cholesky.factorize(ws_.reduced, shift_ * mean)) shift_ *= 8;
+    }
+    return ws_.cholesky.solve(r);
+  }
+
+  struct State {
+    Vector r;       // unbalanced force
+    double merit;   // its squared energy norm, by the last factor
+    double energy;  // potential with the dead load `held`
+  };
+  State state(const Positions& y, const Positions& x, const Vector& held) const {
+    State s{{}, std::numeric_limits<double>::infinity(), potential(y)};
+    if (!std::isfinite(s.energy)) return s;
+    s.energy += force_on(held, y - x);
+    s.r = residual(y) - held;
+    s.merit = s.r.dot(ws_.cholesky.solve(s.r));
+    return s;
+  }
+  /// Work of the reduced force on a nodal displacement that respects the supports.
+  double force_on(const Vector& reduced, const Vector& nodal) const {
+    double work = 0;
+    std::vector<bool> done(size_t(reduced.size()), false);
+    for (Eigen::Index i = 0; i < nodal.size(); ++i)
+      if (const int u = model_.dofs.unknown(int(i)); u >= 0 && !done[u])
+        work += reduced[u] * nodal[i], done[u] = true;
+    return work;
+  }
+
+  /// Takes away the fraction `t` of the unbalanced force: finds y with r(y) = (1 - t) r(x),
+  /// starting with the step t d. Its own Newton iterations let the pressure of nearly
+  /// incompressible tissue settle, which one straight step leaves far off. False when they do not
+  /// contract, or leave the region where tissue is the right side out.
+  bool stage(const Positions& x, const Vector& r, const Vector& d, double t, double accuracy,
+             Positions& y, int& iterations) {
+    const Vector held = (1 - t) * r;  // a dead load that keeps this much of the force unbalanced
+    const double start = r.dot(d);
+    y = x + model_.dofs.expand(t * d);
+    Positions y_before = x;
+    State at = state(y, x, held);
+    for (int i = 0; i < stage_iterations; ++i) {
+      if (!std::isfinite(at.energy)) return false;
+      if (at.merit <= accuracy * start) return true;
+      if (spent()) return false;
+      assemble(y, y_before);
+      ++iterations;
+      const Vector c = direction(at.r, 0.03);
+      at.merit = at.r.dot(ws_.cholesky.solve(at.r));  // the factor may be a new one
+      Vector along = model_.dofs.expand(c);
+      along *= step_limit(model_, y, along);
+      State next;
+      for (int halvings = 0;; ++halvings, along *= 0.3) {
+        next = state(y + along, x, held);
+        // Merit settles the volume, energy everything else: either may lead.
+        if (next.merit < at.merit || next.energy < at.energy) break;
+        if (halvings == 4) return false;
+      }
+      y_before = y;
+      y += along;
+      at = next;
+    }
+    return at.merit <= accuracy * start;
+  }
+
+  /// Shortens the step until the potential falls.
+  bool line_search(Positions& x, const Vector& r, const Vector& d) const {
+    const double e = potential(x), slope = r.dot(d);
+    const Vector along = model_.dofs.expand(d);
+    for (double t = 1; t > 1e-9; t *= 0.5) {
+      const Positions y = x + t * along;
+      if (potential(y) > e - 1e-4 * t * slope) continue;
+      x = y;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  /// Preconditioned by the last factor. False when it is slow or meets negative curvature.
+  bool conjugate_gradients(const Vector& b, double accuracy, Vector& x) const {
+    x = Vector::Zero(b.size());
+    Vector r = b, z = ws_.cholesky.solve(r), p = z;
+    double rz = r.dot(z);
+    const double target = accuracy * accuracy * rz;
+    for (int i = 0; i < patient_iterations; ++i) {
+      const Vector kp = ws_.reduced.multiply(p);
+      const double curvature = p.dot(kp);
+      if (!(curvature > 0)) return false;
+      const double step = rz / curvature;
+      x += step * p;
+      r -= step * kp;
+      z = ws_.cholesky.solve(r);
+      const double next = r.dot(z);
+      if (next <= target) return true;
+      p = z + (next / rz) * p;
+      rz = next;
+    }
+    return false;
+  }
+
+  const Model& model_;
+  const Parameters& p_;
+  Workspace& ws_;
+  int last_factorization_;
+  double shift_ = 0;  // last one needed, over the mean diagonal
+};
+
+}  // namespace genio
