@@ -5,12 +5,22 @@
 #include <cstring>
 #include <new>
 
-// OpenBLAS and CHOLMOD's OpenMP loops would otherwise start a thread a core in every worker, and
-// spin in each of the many small supernodes.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-extern "C" void omp_set_num_threads(int) __attribute__((weak));
+extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
 
 namespace genio {
+namespace {
+
+/// OpenBLAS and CHOLMOD's OpenMP loops would otherwise wake threads for each of the many small
+/// supernodes, which costs more than the arithmetic. CHOLMOD asks for four by a clause that
+/// omp_set_num_threads() does not reach; with no active level allowed every loop stays here. OpenMP
+/// keeps this a thread, so the thread that calls CHOLMOD has to say it.
+void stay_on_this_thread() {
+  if (openblas_set_num_threads) openblas_set_num_threads(1);
+  if (omp_set_max_active_levels) omp_set_max_active_levels(0);
+}
+
+}  // namespace
 
 ReducedStiffness::ReducedStiffness(const BlockPattern& pattern, const DofMap& dofs) {
   const int n = dofs.unknowns();
@@ -72,8 +82,7 @@ struct Cholesky::Impl {
 };
 
 Cholesky::Cholesky(const ReducedStiffness& k) : impl_(std::make_unique<Impl>()) {
-  if (openblas_set_num_threads) openblas_set_num_threads(1);
-  if (omp_set_num_threads) omp_set_num_threads(1);
+  stay_on_this_thread();
   cholmod_common& c = impl_->common;
   cholmod_start(&c);
   c.print = 0;
@@ -99,6 +108,7 @@ bool Cholesky::factorize(const ReducedStiffness& k, double shift) {
   cholmod_sparse s = Impl::view(k.lower());
   double beta[2] = {shift, 0};
   ++factorizations_;
+  stay_on_this_thread();
   cholmod_factorize_p(&s, beta, nullptr, 0, impl_->factor, &impl_->common);
   valid_ = impl_->common.status == CHOLMOD_OK &&
            impl_->factor->minor == impl_->factor->n;
@@ -118,6 +128,7 @@ Matrix Cholesky::solve(const Matrix& right_hand_sides) const {
 }
 
 void Cholesky::solve(const double* right, double* solution, Eigen::Index columns) const {
+  stay_on_this_thread();
   cholmod_dense b{};
   b.nrow = b.d = impl_->factor->n;
   b.ncol = size_t(columns);
