@@ -23,7 +23,7 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options,
     result.message = "the start shape has inverted tissue";
     return;
   }
-  double t = 1;
+  double t = 1, springs = 0;
   for (int i = 0; i <= options.max_iterations; ++i) {
     const Vector r = newton.residual(x);
     result.residual = r.norm() / newton.reference(x);
@@ -39,31 +39,35 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options,
       return;
     }
     const double accuracy = std::clamp(0.3 * result.residual, 1e-5, 0.05);
+    newton.set_springs(springs);
     newton.assemble(x, x);
     Vector d = newton.direction(r, accuracy);
     ++result.newton_iterations;
-    t = std::min(t, step_limit(model, x, model.dofs.expand(d)));
     Positions y;
     bool advanced = false;
-    for (int tries = 0; tries < stage_tries; ++tries, t *= 0.4) {
-      advanced = newton.stage(x, r, d, t, t == 1 ? 1e-6 : 1e-3, y, result.newton_iterations);
-      if (advanced) break;
-      if (!ws.cholesky.valid()) newton.assemble(x, x), d = newton.direction(r, accuracy);
-    }
-    if (advanced) {
-      x = y;
-      t = std::min(1.0, 3 * t);
+    if (springs == 0) {
+      t = std::min(t, step_limit(model, x, model.dofs.expand(d)));
+      for (int tries = 0; tries < stage_tries && newton.shift() == 0; ++tries, t *= 0.4) {
+        advanced = newton.stage(x, r, d, t, t == 1 ? 1e-6 : 1e-3, y, result.newton_iterations);
+        if (advanced) break;
+        if (!ws.cholesky.valid()) newton.assemble(x, x), d = newton.direction(r, accuracy);
+      }
+      if (advanced) t = std::min(1.0, 3 * t);
+      else springs = std::max(1e-3, 2 * newton.shift()), t = 1;
     } else {
-      t = 0.3;
-      if (!newton.line_search(x, r, d)) {
-        if (result.residual < 100 * options.tolerance) {  // rounding is what is left
+      advanced = newton.shift() == 0 && newton.stage(x, r, d, 1, 1e-2, y, result.newton_iterations);
+      springs *= advanced ? 0.25 : 8;
+      if (springs < 1e-5) springs = 0;
+    }
+    if (advanced) x = y;
+    else if (springs > 1e3) {
+      if (result.residual < 100 * options.tolerance) {  // rounding is what is left
           result.status = SolveStatus::converged;
           return;
         }
         result.message = fmt::format(
             "no step lowers the energy any more (relative residual {:.1e})", result.residual);
         return;
-      }
     }
   }
   result.message = fmt::format("not converged in {} Newton steps (relative residual {:.1e})",

@@ -20,7 +20,7 @@ struct Workspace {
 
 struct SolveOptions {
   double tolerance = 1e-9;   ///< residual over the applied forces (at least 1 mN)
-  int max_iterations = 60;   ///< Newton steps a load step
+  int max_iterations = 100;  ///< Newton steps a load step
   int max_factorizations = 1000;  ///< gives up beyond
   int max_load_steps = 64;   ///< where one step from the start does not converge
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "forward/equilibrium.hpp"
 
@@ -44,73 +43,60 @@ class Newton {
   void assemble(const Positions& x, const Positions& previous) {
     step_stiffness(model_, x, previous, p_, ws_.stiffness);
     ws_.reduced.assign(ws_.stiffness);
+    if (mean_ == 0) mean_ = ws_.reduced.trace() / double(model_.dofs.unknowns());
   }
 
-  /// Direction K^-1 r; away from equilibrium K may be indefinite, then a shift makes it descend.
+  /// Springs from every unknown to where the step began, as a part of K's mean diagonal; 0: none.
+  void set_springs(double part) { spring_ = part; }
+  /// The last shift that K with its springs needed to be positive definite, in the same unit; 0
+  /// when it needed none.
+  double shift() const { return shift_; }
+
+  /// Direction (K + springs)^-1 r; where that is indefinite a shift makes it descend.
   Vector direction(const Vector& r, double accuracy) {
+    shift_ = 0;
     Vector d;
     if (ws_.cholesky.valid() && conjugate_gradients(r, accuracy, d)) return d;
-    if (!ws_.cholesky.factorize(ws_.reduced)) {
-      const double mean = ws_.reduced.trace() / double(r.size());
-      shift_ = std::max(1e-4, shift_ / 8);
-      while (!ws_.cholesky.factorize(ws_.reduced, shift_ * mean)) shift_ *= 8;
+    if (!ws_.cholesky.factorize(ws_.reduced, spring_ * mean_)) {
+      shift_ = first_shift_;
+      while (!ws_.cholesky.factorize(ws_.reduced, (spring_ + shift_) * mean_)) shift_ *= 8;
+      first_shift_ = std::max(1e-4, shift_ / 8);
     }
     return ws_.cholesky.solve(r);
   }
 
-  struct State {
-    Vector r;       // unbalanced force
-    double merit;   // its squared energy norm, by the last factor
-    double energy;  // potential with the dead load `held`
-  };
-  State state(const Positions& y, const Positions& x, const Vector& held) const {
-    State s{{}, std::numeric_limits<double>::infinity(), potential(y)};
-    if (!std::isfinite(s.energy)) return s;
-    s.energy += force_on(held, y - x);
-    s.r = residual(y) - held;
-    s.merit = s.r.dot(ws_.cholesky.solve(s.r));
-    return s;
-  }
-  /// Work of the reduced force on a nodal displacement that respects the supports.
-  double force_on(const Vector& reduced, const Vector& nodal) const {
-    double work = 0;
-    std::vector<bool> done(size_t(reduced.size()), false);
-    for (Eigen::Index i = 0; i < nodal.size(); ++i)
-      if (const int u = model_.dofs.unknown(int(i)); u >= 0 && !done[u])
-        work += reduced[u] * nodal[i], done[u] = true;
-    return work;
-  }
-
-  /// Takes away the fraction `t` of the unbalanced force: finds y with r(y) = (1 - t) r(x),
-  /// starting with the step t d. Its own Newton iterations let the pressure of nearly
-  /// incompressible tissue settle, which one straight step leaves far off. False when they do not
-  /// contract, or leave the region where tissue is the right side out.
+  /// Finds y where the fraction `t` of the unbalanced force at x is gone, r(y) = (1 - t) r(x), or
+  /// with springs where r(y) = (1 - t) r(x) + springs (y - x), starting with the step t d. Its own
+  /// Newton iterations let the pressure of nearly incompressible tissue settle, which one straight
+  /// step leaves far off. False when they do not contract, or leave the region where tissue is the
+  /// right side out.
   bool stage(const Positions& x, const Vector& r, const Vector& d, double t, double accuracy,
              Positions& y, int& iterations) {
     const Vector held = (1 - t) * r;  // a dead load that keeps this much of the force unbalanced
     const double start = r.dot(d);
-    y = x + model_.dofs.expand(t * d);
+    Vector u = t * d;
+    State at = state(x, u, held);
+    y = x + model_.dofs.expand(u);
     Positions y_before = x;
-    State at = state(y, x, held);
     for (int i = 0; i < stage_iterations; ++i) {
       if (!std::isfinite(at.energy)) return false;
       if (at.merit <= accuracy * start) return true;
       if (spent()) return false;
       assemble(y, y_before);
       ++iterations;
-      const Vector c = direction(at.r, 0.03);
+      Vector c = direction(at.r, 0.03);
       at.merit = at.r.dot(ws_.cholesky.solve(at.r));  // the factor may be a new one
-      Vector along = model_.dofs.expand(c);
-      along *= step_limit(model_, y, along);
+      c *= step_limit(model_, y, model_.dofs.expand(c));
       State next;
-      for (int halvings = 0;; ++halvings, along *= 0.3) {
-        next = state(y + along, x, held);
+      for (int halvings = 0;; ++halvings, c *= 0.3) {
+        next = state(x, u + c, held);
         // Merit settles the volume, energy everything else: either may lead.
         if (next.merit < at.merit || next.energy < at.energy) break;
         if (halvings == 4) return false;
       }
+      u += c;
       y_before = y;
-      y += along;
+      y = x + model_.dofs.expand(u);
       at = next;
     }
     return at.merit <= accuracy * start;
@@ -130,6 +116,21 @@ class Newton {
   }
 
  private:
+  struct State {
+    Vector r;       // unbalanced force, less what is held and what the springs take
+    double merit;   // its squared energy norm, by the last factor
+    double energy;  // potential with the held load and the springs
+  };
+  State state(const Positions& x, const Vector& u, const Vector& held) const {
+    const Positions y = x + model_.dofs.expand(u);
+    State s{{}, std::numeric_limits<double>::infinity(), potential(y)};
+    if (!std::isfinite(s.energy)) return s;
+    s.energy += held.dot(u) + 0.5 * spring_ * mean_ * u.squaredNorm();
+    s.r = residual(y) - held - spring_ * mean_ * u;
+    s.merit = s.r.dot(ws_.cholesky.solve(s.r));
+    return s;
+  }
+
   /// Preconditioned by the last factor. False when it is slow or meets negative curvature.
   bool conjugate_gradients(const Vector& b, double accuracy, Vector& x) const {
     x = Vector::Zero(b.size());
@@ -137,7 +138,7 @@ class Newton {
     double rz = r.dot(z);
     const double target = accuracy * accuracy * rz;
     for (int i = 0; i < patient_iterations; ++i) {
-      const Vector kp = ws_.reduced.multiply(p);
+      const Vector kp = ws_.reduced.multiply(p) + spring_ * mean_ * p;
       const double curvature = p.dot(kp);
       if (!(curvature > 0)) return false;
       const double step = rz / curvature;
@@ -156,7 +157,8 @@ class Newton {
   const Parameters& p_;
   Workspace& ws_;
   int last_factorization_;
-  double shift_ = 0;  // last one needed, over the mean diagonal
+  double mean_ = 0;  // of the first tangent's diagonal [N/m]
+  double spring_ = 0, shift_ = 0, first_shift_ = 1e-4;  // over mean_
 };
 
 }  // namespace genio

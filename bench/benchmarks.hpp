@@ -1,0 +1,31 @@
+#pragma once
+// Figures of merit, measured where they are asked for. Each returns one JSON object.
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "forward/model.hpp"
+
+namespace genio::bench {
+
+using Json = nlohmann::json;
+/// One line a step for people who wait; may be empty.
+using Progress = std::function<void(const std::string&)>;
+
+/// Known forces of three muscles found again from their noiseless contour, cold and warm.
+Json recovery(const Model& model);
+
+/// Round trips over LCM on 127.0.0.1 beside the bare computation.
+Json service(const Model& model);
+
+/// One frame from the middle of each label (word) of a recording, registered by its palate trace.
+/// Throws InputError for files that cannot be read.
+Json ultrasound(const Model& model, const std::string& contours, const std::string& palate,
+                const Progress& progress);
+
+/// The Grenoble tongue of `folder` under GGP and HG: without contact against an independent static
+/// solution of the same problem, with contact beside the seed paper's printed figures.
+Json grenoble(const std::string& folder, const Progress& progress);
+
+}  // namespace genio::bench

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bench/benchmarks.hpp"
+#include "inverse/frame_target.hpp"
+#include "inverse/infer.hpp"
+
+namespace genio::bench {
+namespace {
+
+/// The frame in the middle of each run of one label's frames, in the file's order.
+std::vector<const ContourFrame*> middle_frames(const ContourFile& file) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const ContourFrame*>> by_label;
+  for (const auto& frame : file.frames) {
+    auto& frames = by_label[frame.label];
+    if (frames.empty()) order.push_back(frame.label);
+    frames.push_back(&frame);
+  }
+  std::vector<const ContourFrame*> result;
+  for (const auto& label : order) result.push_back(by_label[label][by_label[label].size() / 2]);
+  return result;
+}
+
+Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& transform,
+                  double noise, Workspace& ws) {
+  Json j = {{"frame", frame.number}, {"label", frame.label}};
+  const Target target = make_target(m, frame, transform, noise);
+  if (target.empty()) {
+    j["status"] = "failed", j["message"] = frame.note;
+    return j;
+  }
+  const Answer a = infer(m, target, Prior{}, ws);
+  j["status"] = to_string(a.status), j["verdict"] = to_string(a.verdict), j["message"] = a.message;
+  j["rms_mm"] = 1e3 * a.rms, j["max_mm"] = 1e3 * a.max;
+  j["wall_s"] = a.wall_s, j["factorizations"] = a.factorizations;
+  for (const auto& c : a.commands) j["forces_N"][c.name] = c.force;
+  return j;
+}
+
+}  // namespace
+
+Json ultrasound(const Model& m, const std::string& contours, const std::string& palate,
+                const Progress& progress) {
+  const ContourFile file = read_contours(contours);
+  const auto trace = midsagittal_points(read_contours(palate));
+  if (trace.empty()) throw InputError(palate + ": no palate point has a value");
+  const Registration r = register_by_palate(m, trace.front(), midsagittal_points(file));
+  Workspace ws(m);
+  Json frames = Json::array();
+  std::vector<double> rms, seconds;
+  int empty = 0;
+  for (const ContourFrame* frame : middle_frames(file)) {
+    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws);
+    if (progress)
+      progress(fmt::format("{:>5}  {:<28} {:<10} {:<12} {:5.2f} mm {:6.2f} s  {}", frame->number,
+                           frame->label, j["status"].get<std::string>(), j.value("verdict", ""),
+                           j.value("rms_mm", 0.0), j.value("wall_s", 0.0),
+                           j["message"].get<std::string>()));
+    if (j["status"] == "converged") rms.push_back(j["rms_mm"]);
+    if (j.contains("wall_s")) seconds.push_back(j["wall_s"]);
+    empty += frame->points.empty();
+    frames.push_back(std::move(j));
+  }
+  const auto median = [](std::vector<double> v) {
+    std::sort(v.begin(), v.end());
+    return v.empty() ? Json() : Json(0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]));
+  };
+  return {{"labels", frames.size()}, {"empty_frames", empty}, {"answered", rms.size()},
+          {"rms_mm_median", median(rms)}, {"wall_s_median", median(seconds)},
+          {"scale", r.transform.scale}, {"palate_rms_mm", 1e3 * r.palate_rms},
+          {"frames", frames}};
+}
+
+}  // namespace genio::bench
