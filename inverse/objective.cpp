@@ -5,12 +5,18 @@
 #include <limits>
 
 #include "forward/sensitivity.hpp"
+#include "inverse/curvature.hpp"
 
 namespace genio {
 namespace {
 
 constexpr double near_bound = 2e-3;    // activation
+constexpr double near_optimum = 1;     // fall of the objective still to be had
 constexpr double longest_step = 5e-3;  // of any node between two points [m]
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// The optimiser comes back to points that it has rounded.
+bool same(const Vector& a, const Vector& b) { return (a - b).cwiseAbs().maxCoeff() < 1e-12; }
 
 }  // namespace
 
@@ -85,8 +91,8 @@ bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
 }
 
 const ObjectivePoint* Objective::value(const Vector& activations) {
-  if (have_last_ && last_.activations == activations) return &last_;
-  if (have_anchor_ && anchor_.activations == activations) return &anchor_;
+  if (have_last_ && same(last_.activations, activations)) return &last_;
+  if (have_anchor_ && same(anchor_.activations, activations)) return &anchor_;
   ObjectivePoint point;
   if (!solve(activations, point)) return nullptr;
   last_ = std::move(point);
@@ -95,22 +101,18 @@ const ObjectivePoint* Objective::value(const Vector& activations) {
 }
 
 const ObjectivePoint* Objective::derivatives(const Vector& activations) {
-  if (have_anchor_ && anchor_.activations == activations) return &anchor_;
+  if (have_anchor_ && same(anchor_.activations, activations)) return &anchor_;
   if (!value(activations)) return nullptr;
   ObjectivePoint point = last_;
-  Matrix pull = Matrix::Zero(point.equilibrium.x.size(), Eigen::Index(commands_.size()));
-  for (size_t c = 0; c < commands_.size(); ++c) {
-    const Matrix each = force_derivatives(model_, point.equilibrium.x, point.equilibrium.parameters,
-                                          commands_[c].parameters);
-    for (size_t i = 0; i < commands_[c].shares.size(); ++i)
-      pull.col(Eigen::Index(c)) +=
-          commands_[c].shares[i] * commands_[c].max_force * each.col(Eigen::Index(i));
-  }
+  const Matrix pull = command_pulls(model_, commands_, point.equilibrium.x,
+                                    point.equilibrium.parameters);
   point.positions = sensitivity_to_forces(model_, point.equilibrium, pull, ws_);
   if (point.positions.size() == 0) {
     failure_ = "the equilibrium is unstable";
     return nullptr;
   }
+  point.adjoint = model_.dofs.expand(ws_.cholesky.solve(model_.dofs.reduce(
+      misfit_gradient(point.residuals, point.residuals.values, point.equilibrium.x.size()))));
   point.jacobian = residual_jacobian(point.residuals, point.positions);
   weigh(point);
   anchor_ = std::move(point);
@@ -119,21 +121,38 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
 }
 
 double Objective::promised_gain() const {
-  if (!have_anchor_) return std::numeric_limits<double>::infinity();
-  const Vector &z = anchor_.activations, &g = anchor_.gradient;
+  return have_anchor_ ? promised_gain(anchor_, hessian(anchor_)) : unbounded;
+}
+
+double Objective::promised_gain(const ObjectivePoint& point, const Matrix& h) const {
+  const Vector &z = point.activations, &g = point.gradient;
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < z.size(); ++i)
     if (!(z[i] < near_bound && g[i] > 0) && !(z[i] > 1 - near_bound && g[i] < 0)) free.push_back(i);
   if (free.empty()) return 0;
-  const Matrix h = hessian(anchor_)(free, free);
   const Vector slope = g(free);
-  return 0.5 * slope.dot(h.ldlt().solve(slope));
+  const Eigen::LLT<Matrix> factor(Matrix(h(free, free)));
+  return factor.info() == Eigen::Success ? 0.5 * slope.dot(factor.solve(slope)) : unbounded;
 }
 
-Matrix Objective::hessian(const ObjectivePoint& point) const {
+Matrix Objective::gauss_newton(const ObjectivePoint& point) const {
   Matrix h = point.jacobian.transpose() * point.jacobian;
   h.diagonal().array() += effort_weight_;
   return h;
+}
+
+Matrix Objective::exact_hessian(const ObjectivePoint& point) const {
+  if (point.curvature.size() == 0)
+    point.curvature = misfit_curvature(model_, comparison_, commands_, point.equilibrium,
+                                       point.residuals, point.positions, point.adjoint, ws_);
+  return gauss_newton(point) + point.curvature;
+}
+
+Matrix Objective::hessian(const ObjectivePoint& point) const {
+  const Matrix rough = gauss_newton(point);
+  if (promised_gain(point, rough) > near_optimum) return rough;
+  const Matrix exact = exact_hessian(point);
+  return promised_gain(point, exact) < unbounded ? exact : rough;
 }
 
 }  // namespace genio

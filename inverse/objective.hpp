@@ -17,6 +17,8 @@ struct ObjectivePoint {
   Matrix positions;  ///< dx/d activation, 3 n x count
   Matrix jacobian;   ///< d residual / d activation
   Vector gradient;
+  Vector adjoint;    ///< K^-1 of the misfit's derivative with respect to the positions
+  mutable Matrix curvature;  ///< misfit_curvature(), once asked for
 };
 
 /// Evaluates and remembers. The last point whose sensitivities are known predicts the shape of the
@@ -35,9 +37,16 @@ class Objective {
   /// As value(), with gradient and jacobian.
   const ObjectivePoint* derivatives(const Vector& activations);
   /// Gauss-Newton Hessian at a point whose derivatives are known.
+  Matrix gauss_newton(const ObjectivePoint& point) const;
+  /// The Hessian with the second derivatives of the residuals, which count where the misfit stays
+  /// large.
+  Matrix exact_hessian(const ObjectivePoint& point) const;
+  /// For the optimiser and the posterior: Gauss-Newton far from the optimum, where it is always
+  /// positive definite and foresees more; near it exact, as Gauss-Newton zigzags there if the
+  /// misfit stays large, unless the commands free to move have negative curvature.
   Matrix hessian(const ObjectivePoint& point) const;
 
-  /// Half the fall of the objective that the Gauss-Newton model still promises within the bounds at
+  /// The fall of the objective that its quadratic model still promises within the bounds at
   /// the latest point with derivatives; infinite before there is one.
   double promised_gain() const;
   /// The latest point with derivatives; nullptr before there is one.
@@ -52,6 +61,8 @@ class Objective {
   double effort_weight() const { return effort_weight_; }
 
  private:
+  /// Infinite where `hessian` is indefinite over the commands free to move.
+  double promised_gain(const ObjectivePoint& point, const Matrix& hessian) const;
   void weigh(ObjectivePoint& point) const;
   bool solve(const Vector& activations, ObjectivePoint& point);
 

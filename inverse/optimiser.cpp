@@ -4,6 +4,7 @@
 #include <coin/IpTNLP.hpp>
 #include <fmt/format.h>
 #include <mutex>
+#include <vector>
 
 namespace genio {
 namespace {
@@ -11,6 +12,9 @@ namespace {
 using Ipopt::Index;
 using Ipopt::Number;
 using Eigen::Map;
+
+constexpr size_t patience = 5;           // iterations
+constexpr double least_progress = 1e-3;  // in them, of the objective and of its unit
 
 /// The objective as Ipopt asks for it.
 class CommandProblem final : public Ipopt::TNLP {
@@ -73,7 +77,13 @@ class CommandProblem final : public Ipopt::TNLP {
     // Stop on what the objective can still gain, in its own unit: with a large misfit the gradient
     // never gets as small as with a small one.
     settled_ = iteration > 0 && objective_.promised_gain() < options_.tolerance;
-    return !settled_ && !objective_.stopped();
+    // Where the tongue just touches bone the objective has kinks, and a smooth model promises
+    // what is not there.
+    best_values_.push_back(best_value_);
+    stalled_ = best_values_.size() > patience &&
+               best_values_[best_values_.size() - 1 - patience] - best_value_ <
+                   least_progress * (1 + best_value_);
+    return !settled_ && !stalled_ && !objective_.stopped();
   }
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
                          const Number*, Index, const Number*, const Number*, Number,
@@ -81,6 +91,7 @@ class CommandProblem final : public Ipopt::TNLP {
     final_ = Map<const Vector>(x, n);
   }
   bool settled() const { return settled_; }
+  bool stalled() const { return stalled_; }
   const Vector& final_point() const { return final_; }
   const Vector& best_point() const { return best_; }
 
@@ -96,7 +107,8 @@ class CommandProblem final : public Ipopt::TNLP {
   OptimiserResult& result_;
   Vector final_, best_;
   double best_value_ = 0, best_rms_ = 0;
-  bool settled_ = false;
+  std::vector<double> best_values_;  // after each iteration
+  bool settled_ = false, stalled_ = false;
 };
 
 }  // namespace
@@ -139,10 +151,11 @@ OptimiserResult minimise(Objective& objective, const Vector& start, bool warm,
   const auto status = app->OptimizeTNLP(problem);
   const bool solved =
       status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level;
-  result.converged = solved || (problem->settled() && !objective.stopped()) ||
-                     (!objective.stopped() && objective.promised_gain() < 100 * options.tolerance);
+  const bool settled = !objective.stopped() && (problem->settled() ||
+                       objective.promised_gain() < 100 * options.tolerance);
+  result.converged = solved || settled || (problem->stalled() && !objective.stopped());
   if (solved && problem->final_point().size()) result.activations = problem->final_point();
-  else if (result.converged) result.activations = objective.latest()->activations;
+  else if (settled) result.activations = objective.latest()->activations;
   else result.activations = problem->best_point();
   if (!result.converged)
     result.message = fmt::format("the optimiser stopped (Ipopt status {}){}{}", int(status),

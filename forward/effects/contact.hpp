@@ -22,7 +22,7 @@ struct ContactNode {
 /// Parameter: stiffness k [Pa/m], pressure per depth.
 class Contact final : public Effect {
  public:
-  static constexpr double soft_depth = 1e-5;  ///< [m]
+  static constexpr double soft_depth = 5e-5;  ///< [m]
 
   Contact(std::string name, std::shared_ptr<const DistanceField> field,
           std::vector<ContactNode> nodes, double stiffness);

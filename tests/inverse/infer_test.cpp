@@ -50,6 +50,25 @@ TEST_F(Infer, GradientIsTheDerivativeOfTheObjective) {
   }
 }
 
+TEST_F(Infer, HessianIsTheDerivativeOfTheGradient) {
+  Target t = simulated({{"GGP", 2}, {"HG", 1}});
+  for (auto& p : t.curve) p.position += Vec2(1e-3, 3e-3);  // a misfit whose curvature counts
+  const Comparison comparison(m, t);
+  const InferOptions options;
+  Objective objective(m, comparison, Prior{}, options, ws);
+  const Vector z = Vector::Constant(Eigen::Index(objective.commands().size()), 0.02);
+  const Matrix hessian = objective.exact_hessian(*objective.derivatives(z));
+  const Matrix left_out = hessian - objective.gauss_newton(*objective.derivatives(z));
+  EXPECT_GT(left_out.norm(), 0.05 * hessian.norm());
+  for (Eigen::Index k = 0; k < z.size(); ++k) {
+    const double h = 1e-4;
+    const Vector up = objective.derivatives(z + h * Vector::Unit(z.size(), k))->gradient;
+    const Vector down = objective.derivatives(z - h * Vector::Unit(z.size(), k))->gradient;
+    EXPECT_LT(((up - down) / (2 * h) - hessian.col(k)).norm(), 1e-3 * hessian.norm())
+        << objective.commands()[size_t(k)].name;
+  }
+}
+
 TEST_F(Infer, ShapeBeyondAllMusclesIsNotExplained) {
   Target t;
   for (const Vec2& q : TongueLine(m).sample(m.rest, 30)) t.curve.push_back({q + Vec2(-0.012, -0.012), 3e-4});
