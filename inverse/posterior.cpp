@@ -138,7 +138,10 @@ void summarise_posterior(const Objective& objective,
     answer.message = fmt::format("misfit within noise (p = {:.2g})", tail);
     return;
   }
-  const double gain = optimum.gradient.dot(h.ldlt().solve(optimum.gradient));
+  // What the misfit would lose if the bounds gave way. Gauss-Newton, as the exact Hessian may be
+  // indefinite across active bounds.
+  const double gain =
+      optimum.gradient.dot(objective.gauss_newton(optimum).llt().solve(optimum.gradient));
   const bool bounded = gain >= 0.5 * (chi2 - dof);
   answer.verdict = bounded ? Verdict::unreachable : Verdict::mismatch;
   answer.message = fmt::format(
