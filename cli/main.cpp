@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Genio: muscle forces from measured tongue shapes."};
   app.footer("Example: genio invert --target contour.csv --out results");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "genio 0.1.0");
+  app.set_version_flag("--version", "genio " GENIO_VERSION);
   std::vector<std::pair<CLI::App*, Runner>> commands;
   const auto add = [&](const char* name, const char* about, Runner (*declare)(CLI::App&)) {
     CLI::App* sub = app.add_subcommand(name, about);

@@ -4,6 +4,7 @@ include(GNUInstallDirs)
 add_library(genio_flags INTERFACE)
 target_compile_options(genio_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi
                        -Wno-maybe-uninitialized -Wno-restrict)  # GCC 12 bugs 105593, 105329
+target_compile_definitions(genio_flags INTERFACE GENIO_VERSION="${PROJECT_VERSION}")
 if(GENIO_WERROR)
   target_compile_options(genio_flags INTERFACE -Werror)
 endif()

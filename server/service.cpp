@@ -17,7 +17,6 @@
 namespace genio {
 namespace {
 
-constexpr const char* version = "0.1.0";
 constexpr auto status_period = std::chrono::seconds(2);
 
 bool usable_name(const std::string& s) {
@@ -172,7 +171,7 @@ void serve(const Model& model, const ServiceOptions& options, const std::atomic<
       if (std::chrono::steady_clock::now() >= next_status) {
         next_status += status_period;
         server_status_t s{};
-        s.utime = now_us(), s.version = version, s.model = model.name;
+        s.utime = now_us(), s.version = GENIO_VERSION, s.model = model.name;
         s.queued = int(desk.queue.size()), s.running = desk.running.empty() ? 0 : 1;
         s.received = desk.received, s.replied = desk.replied, s.refused = desk.refused;
         s.uptime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -188,6 +187,13 @@ void serve(const Model& model, const ServiceOptions& options, const std::atomic<
   }
   desk.work.notify_all();
   computing.join();
+  // Every request gets a reply: those that still wait hear that nobody will work on them.
+  for (const auto& request : desk.queue)
+    for (const auto& client : desk.clients[request.id])
+      desk.reply_to(client, refusal(request.id, "the server stopped; ask again"));
+  std::move(desk.outbox.begin(), desk.outbox.end(), std::back_inserter(leaving));
+  for (const auto& [channel, bytes] : leaving)
+    if (!link.publish(channel, bytes)) break;
 }
 
 }  // namespace genio

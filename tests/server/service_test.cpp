@@ -24,7 +24,7 @@ class Service : public testing::Test {
   void TearDown() override {
     client.reset();
     stop = true;
-    thread.join();
+    if (thread.joinable()) thread.join();
   }
   shape_request_t one_point() const {
     const Vec3 top = 1e3 * model.mesh.nodes[size_t(model.landmarks.dorsum)];
@@ -92,6 +92,25 @@ TEST_F(Service, GarbageOnTheRequestChannelDoesNoHarm) {
   for (int i = 0; i < 50 && !told; ++i) link.wait(100);
   EXPECT_TRUE(told);
   EXPECT_TRUE(client->request(one_point(), 60));
+}
+
+TEST_F(Service, StoppingServerRepliesToAllThatWait) {
+  Link link(options.url);
+  int replies = 0;
+  link.subscribe("GENIO_REPLY.waiter", [&](const std::string&, const void*, size_t) { ++replies; });
+  link.wait(100);
+  auto r = one_point();
+  r.client = "waiter";
+  for (const char* id : {"a", "b", "c"}) {
+    r.id = id;
+    link.publish("GENIO_REQUEST", encode(r));
+  }
+  for (int i = 0; i < 100 && client->status(5)->received < 3; ++i) {
+  }
+  stop = true;
+  thread.join();
+  for (int i = 0; i < 50 && replies < 3; ++i) link.wait(100);
+  EXPECT_EQ(replies, 3);
 }
 
 TEST(Hub, PortInUseIsAnError) {

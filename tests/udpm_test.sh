@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# The service over LCM's UDP multicast, in a network namespace of its own.
+set -eu
+genio=$1 source=$2
+if [ "${GENIO_IN_NAMESPACE:-}" != yes ]; then
+  enter=(unshare --net)
+  [ "$(id -u)" -eq 0 ] || enter=(unshare --user --map-root-user --net)
+  if ! "${enter[@]}" true 2>/dev/null; then
+    echo "SKIPPED: this machine does not let us make a network namespace"
+    exit 77
+  fi
+  GENIO_IN_NAMESPACE=yes exec "${enter[@]}" "$0" "$@"
+fi
+ip link set lo up multicast on
+ip route add 224.0.0.0/4 dev lo
+url='udpm://239.255.76.67:7667?ttl=0'
+work=$(mktemp -d)
+"$genio" serve --lcm "$url" 2>"$work/log" & server=$!
+trap 'kill $server 2>/dev/null; wait $server 2>/dev/null || true; rm -rf "$work"' EXIT
+"$genio" request status --lcm "$url" --timeout-s 30 >/dev/null
+"$genio" request --lcm "$url" --target "$source/data/examples/example_shape.csv" --timeout-s 120 \
+  --json 2>/dev/null >"$work/answer"
+grep -q '"status":"converged"' "$work/answer" || { cat "$work/answer" "$work/log"; exit 1; }
