@@ -22,9 +22,21 @@ struct Case {
 };
 
 constexpr Case cases[] = {
-    {"cadaver", "GGP", 4, 192, 90, {-10.10, -18.62, -20.24, -1.43, -17.25, 1.73}, 21.47,
+    {"cadaver",
+     "GGP",
+     4,
+     192,
+     90,
+     {-10.10, -18.62, -20.24, -1.43, -17.25, 1.73},
+     21.47,
      "rear 20 mm forward, dorsum 9 mm up"},
-    {"cadaver", "HG", 2, 192, 90, {18.36, 14.15, 19.15, -6.12, 10.20, -11.67}, 23.2,
+    {"cadaver",
+     "HG",
+     2,
+     192,
+     90,
+     {18.36, 14.15, 19.15, -6.12, 10.20, -11.67},
+     23.2,
      "rear 12 mm down and back"},
     {"living", "GGP", 4, 1037, 486, {-4.22, -5.45, -6.51, 0.80, -6.87, 0.08}, 7.65, nullptr},
     {"living", "HG", 2, 1037, 486, {6.42, 6.86, 8.17, -1.33, 4.21, -4.20}, 9.4, nullptr}};
@@ -42,10 +54,15 @@ Equilibrium solve(const Model& m, const Case& c) {
 Json describe(const Model& m, const Case& c, bool contact, const Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
   const Equilibrium e = solve(m, c);
-  Json j = {{"law", c.law}, {"muscle", c.muscle}, {"force_N", c.newtons}, {"contact", contact},
-            {"status", e ? "converged" : "failed"}, {"message", e.message},
-            {"factorizations", e.factorizations},
-            {"wall_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
+  Json j = {
+      {"law", c.law},
+      {"muscle", c.muscle},
+      {"force_N", c.newtons},
+      {"contact", contact},
+      {"status", e ? "converged" : "failed"},
+      {"message", e.message},
+      {"factorizations", e.factorizations},
+      {"wall_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
   std::string line = fmt::format("{:<8} {:<4} {} N contact {:<4}", c.law, c.muscle, c.newtons,
                                  contact ? "on" : "off");
   if (e) {

@@ -7,14 +7,13 @@ namespace genio::bench {
 namespace {
 
 /// Curve target simulated with known forces, without noise.
-Target simulated(const Model& m, const std::vector<std::pair<std::string, double>>& forces, Workspace& ws) {
+Target simulated(const Model& m, const std::vector<std::pair<std::string, double>>& forces,
+                 Workspace& ws) {
   Parameters p = default_parameters(m);
   for (const auto& [name, newtons] : forces) set_command(m, name, newtons, p);
   const auto e = solve_equilibrium(m, p, m.rest, ws);
   if (!e) throw std::runtime_error("the bench target has no equilibrium: " + e.message);
-  Target t;
-  for (const Vec2& q : TongueLine(m).sample(e.x, 40)) t.curve.push_back({q, 0.5e-3});
-  return t;
+  return curve_target(m, e.x, 40, 0.5e-3);
 }
 
 }  // namespace
@@ -37,9 +36,13 @@ Json recovery(const Model& m) {
     const Answer next = infer(m, target, Prior{}, ws, warm);
     std::string name;
     for (const auto& [muscle, force] : truth) name += fmt::format("{}={} ", muscle, force);
-    list.push_back({{"truth", name}, {"status", to_string(cold.status)}, {"rms_mm", 1e3 * cold.rms},
-                    {"cold_s", cold.wall_s}, {"cold_factorizations", cold.factorizations},
-                    {"warm_status", to_string(next.status)}, {"warm_s", next.wall_s},
+    list.push_back({{"truth", name},
+                    {"status", to_string(cold.status)},
+                    {"rms_mm", 1e3 * cold.rms},
+                    {"cold_s", cold.wall_s},
+                    {"cold_factorizations", cold.factorizations},
+                    {"warm_status", to_string(next.status)},
+                    {"warm_s", next.wall_s},
                     {"warm_factorizations", next.factorizations}});
   }
   return {{"recovery", list}};

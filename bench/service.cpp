@@ -53,7 +53,8 @@ Json service(const Model& m) {
   server.join();
   std::sort(overhead.begin(), overhead.end());
   if (overhead.empty()) throw std::runtime_error("no reply came");
-  return {{"requests", requests}, {"replies", replies},
+  return {{"requests", requests},
+          {"replies", replies},
           {"overhead_ms_median", overhead[overhead.size() / 2]},
           {"overhead_ms_p99", overhead.back()}};
 }

@@ -68,9 +68,13 @@ Json ultrasound(const Model& m, const std::string& contours, const std::string& 
     std::sort(v.begin(), v.end());
     return v.empty() ? Json() : Json(0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]));
   };
-  return {{"labels", frames.size()}, {"empty_frames", empty}, {"answered", rms.size()},
-          {"rms_mm_median", median(rms)}, {"wall_s_median", median(seconds)},
-          {"scale", r.transform.scale}, {"palate_rms_mm", 1e3 * r.palate_rms},
+  return {{"labels", frames.size()},
+          {"empty_frames", empty},
+          {"answered", rms.size()},
+          {"rms_mm_median", median(rms)},
+          {"wall_s_median", median(seconds)},
+          {"scale", r.transform.scale},
+          {"palate_rms_mm", 1e3 * r.palate_rms},
           {"frames", frames}};
 }
 

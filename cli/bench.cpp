@@ -1,7 +1,6 @@
-#include "bench/benchmarks.hpp"
-
 #include <fmt/format.h>
 
+#include "bench/benchmarks.hpp"
 #include "cli/commands.hpp"
 #include "forward/model_file.hpp"
 
@@ -27,8 +26,9 @@ int run(const BenchOptions& o) {
     const Model m = read_model(o.model);
     if (o.what == "inverse") j = bench::recovery(m);
     else if (o.what == "service") j = bench::service(m);
-    else j = bench::ultrasound(m, needed(o.target, "--target", o.what),
-                               needed(o.palate, "--palate", o.what), tell);
+    else
+      j = bench::ultrasound(m, needed(o.target, "--target", o.what),
+                            needed(o.palate, "--palate", o.what), tell);
   }
   fmt::print("{}\n", o.json ? j.dump() : j.dump(2));
   return done;

@@ -35,7 +35,8 @@ int run(const ForwardOptions& o) {
     const auto& known = effect_names();
     if (effect != "muscles" && std::find(known.begin(), known.end(), effect) != known.end() &&
         !description.effects.contains(effect))
-      description.effects[effect] = effect == "gravity" ? EffectTable{{"x", 0}, {"y", 0}, {"z", 0}} : EffectTable{};
+      description.effects[effect] =
+          effect == "gravity" ? EffectTable{{"x", 0}, {"y", 0}, {"z", 0}} : EffectTable{};
   }
   const Model m = build_model(description, o.model);
   Parameters p = default_parameters(m);
@@ -47,7 +48,8 @@ int run(const ForwardOptions& o) {
   }
   // Softer or stiffer tissue keeps its Poisson ratio unless told otherwise.
   if (!kappa_given) {
-    const int a10 = parameter_index(m, "elasticity.a10"), kappa = parameter_index(m, "elasticity.kappa");
+    const int a10 = parameter_index(m, "elasticity.a10"),
+              kappa = parameter_index(m, "elasticity.kappa");
     p[kappa] *= p[a10] / m.parameters[a10].info.value;
   }
   for (const auto& text : o.forces) {
@@ -56,8 +58,10 @@ int run(const ForwardOptions& o) {
   }
   Workspace ws(m);
   const auto start = std::chrono::steady_clock::now();
-  const Equilibrium e = o.small ? solve_small_deformation(m, p, ws) : solve_equilibrium(m, p, m.rest, ws);
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Equilibrium e =
+      o.small ? solve_small_deformation(m, p, ws) : solve_equilibrium(m, p, m.rest, ws);
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   nlohmann::json j = {{"status", e ? "converged" : "failed"},
                       {"message", e.message},
                       {"newton_iterations", e.newton_iterations},
@@ -76,10 +80,12 @@ int run(const ForwardOptions& o) {
     fmt::print("equilibrium in {} Newton steps, {} factorisations, {:.2f} s\n", e.newton_iterations,
                e.factorizations, wall);
     for (const char* name : {"tip", "dorsum", "root"})
-      fmt::print("  {:<7} dx {:7.2f}  dy {:7.2f}  dz {:7.2f} mm\n", name, j["landmarks"][name]["dx_mm"].get<double>(),
-                 j["landmarks"][name]["dy_mm"].get<double>(), j["landmarks"][name]["dz_mm"].get<double>());
-    fmt::print("  volume {:+.3f} %, deepest contact {:.3f} mm\n", j["volume_change_percent"].get<double>(),
-               j["max_penetration_mm"].get<double>());
+      fmt::print("  {:<7} dx {:7.2f}  dy {:7.2f}  dz {:7.2f} mm\n", name,
+                 j["landmarks"][name]["dx_mm"].get<double>(),
+                 j["landmarks"][name]["dy_mm"].get<double>(),
+                 j["landmarks"][name]["dz_mm"].get<double>());
+    fmt::print("  volume {:+.3f} %, deepest contact {:.3f} mm\n",
+               j["volume_change_percent"].get<double>(), j["max_penetration_mm"].get<double>());
   } else {
     fmt::print(stderr, "genio forward: {}\n", e.message);
   }

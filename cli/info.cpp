@@ -25,18 +25,24 @@ Runner add_info(CLI::App& app) {
                         {"elements", m.mesh.elements.size()},
                         {"volume_cm3", 1e6 * mesh_volume(m.mesh, m.rest)},
                         {"min_corner_jacobian_ratio", ratio}};
-    for (const auto& muscle : m.muscles) j["muscles"][muscle.name]["max_force_N"] = muscle.max_force;
+    for (const auto& muscle : m.muscles)
+      j["muscles"][muscle.name]["max_force_N"] = muscle.max_force;
     for (const auto& p : m.parameters)
       j["effects"][std::string(m.effects[p.effect]->name())][p.info.name] = {
-          {"value", p.info.value}, {"unit", p.info.unit}, {"lower", p.info.lower}, {"upper", p.info.upper}};
+          {"value", p.info.value},
+          {"unit", p.info.unit},
+          {"lower", p.info.lower},
+          {"upper", p.info.upper}};
     if (*json) {
       fmt::print("{}\n", j.dump());
       return done;
     }
     fmt::print("{}\n  {} nodes, {} elements, {:.2f} cm^3, smallest corner-Jacobian ratio {:.4f}\n",
-               m.name, m.mesh.nodes.size(), m.mesh.elements.size(), 1e6 * mesh_volume(m.mesh, m.rest), ratio);
+               m.name, m.mesh.nodes.size(), m.mesh.elements.size(),
+               1e6 * mesh_volume(m.mesh, m.rest), ratio);
     for (const auto& muscle : m.muscles)
-      fmt::print("  {:<8} {:6.2f} N, {} fibres\n", muscle.name, muscle.max_force, muscle.fibres.size());
+      fmt::print("  {:<8} {:6.2f} N, {} fibres\n", muscle.name, muscle.max_force,
+                 muscle.fibres.size());
     for (const auto& p : m.parameters)
       if (m.effects[p.effect]->name() != "muscles")
         fmt::print("  {} = {} {}\n", p.name, p.info.value, p.info.unit);
@@ -58,8 +64,9 @@ Runner add_import(CLI::App& app) {
     const auto description = import_grenoble(*from);
     build_model(description, *from);  // refuses what could not be computed with
     write_description(description, *out);
-    fmt::print(stderr, "{}: {} nodes, {} elements, {} muscles\n", *out, description.mesh.nodes.size(),
-               description.mesh.elements.size(), description.muscles.size());
+    fmt::print(stderr, "{}: {} nodes, {} elements, {} muscles\n", *out,
+               description.mesh.nodes.size(), description.mesh.elements.size(),
+               description.muscles.size());
     return done;
   };
 }

@@ -37,13 +37,16 @@ int run(const InvertOptions& o) {
   if (!file.model_frame) {
     if (o.palate.empty())
       throw InputError(fmt::format(
-          "{}: is in the device's own frame; give the same session's palate trace with --palate", o.target));
+          "{}: is in the device's own frame; give the same session's palate trace with --palate",
+          o.target));
     const auto palate = midsagittal_points(read_contours(o.palate, o.format));
     if (palate.empty()) throw InputError(o.palate + ": no palate point has a value");
     const auto r = register_by_palate(model, palate.front(), midsagittal_points(file));
     transform = r.transform;
-    fmt::print(stderr, "registered by the palate: scale {:.3f}, tilt {:.1f} degrees, palate RMS {:.2f} mm\n",
-               r.transform.scale, r.transform.angle * 57.29578, 1e3 * r.palate_rms);
+    fmt::print(
+        stderr,
+        "registered by the palate: scale {:.3f}, tilt {:.1f} degrees, palate RMS {:.2f} mm\n",
+        r.transform.scale, r.transform.angle * 57.29578, 1e3 * r.palate_rms);
   }
   const double noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : default_noise(file.format);
   Workspace ws(model);
@@ -56,7 +59,8 @@ int run(const InvertOptions& o) {
     any = true;
     AnswerView view;
     Answer answer;
-    const std::string title = fmt::format("frame {}{}{}", frame.number, frame.label.empty() ? "" : ": ", frame.label);
+    const std::string title =
+        fmt::format("frame {}{}{}", frame.number, frame.label.empty() ? "" : ": ", frame.label);
     if (frame.points.empty()) {
       view.title = title, view.status = "failed", view.verdict = "none";
       view.message = frame.note.empty() ? "the frame has no points" : frame.note;
@@ -80,8 +84,7 @@ int run(const InvertOptions& o) {
       if (answer.shape.size() > 0) write_shape(model, answer.shape, o.out + "/" + name + ".vtu");
     }
   }
-  if (!any)
-    throw InputError(fmt::format("--frames {}: {} has no such frame", o.frames, o.target));
+  if (!any) throw InputError(fmt::format("--frames {}: {} has no such frame", o.frames, o.target));
   return all ? done : no_answer;
 }
 

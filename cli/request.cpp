@@ -39,7 +39,8 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
   v.title = fmt::format("frame {}{}{}", frame.number, frame.label.empty() ? "" : ": ", frame.label);
   v.status = r.status, v.message = r.message, v.verdict = r.verdict;
   for (size_t i = 0; i < r.muscle.size(); ++i)
-    v.commands.push_back({r.muscle[i], r.force_N[i], r.max_force_N[i], r.sd_N[i], r.low_N[i], r.high_N[i], false, false});
+    v.commands.push_back({r.muscle[i], r.force_N[i], r.max_force_N[i], r.sd_N[i], r.low_N[i],
+                          r.high_N[i], false, false});
   for (const auto& group : r.unidentified) {
     std::vector<std::string> names(1);
     for (char c : group)
@@ -73,7 +74,8 @@ int run_request(const RequestOptions& o) {
     if (o.json) fmt::print("{}\n", to_json(view, frame.number).dump());
     else fmt::print("{}", to_table(view));
     if (!o.out.empty())
-      write_report(read_model(o.model), view, frame.number, o.out, fmt::format("frame{:05d}", frame.number));
+      write_report(read_model(o.model), view, frame.number, o.out,
+                   fmt::format("frame{:05d}", frame.number));
   }
   return all ? done : no_answer;
 }
@@ -81,10 +83,13 @@ int run_request(const RequestOptions& o) {
 int run_status(const RequestOptions& o) {
   Client client(choose_url(o.url));
   const auto s = client.status(o.timeout_s);
-  if (!s) throw std::runtime_error(fmt::format("no server on {} within {} s", choose_url(o.url), o.timeout_s));
-  const nlohmann::json j = {{"version", s->version}, {"model", s->model}, {"queued", s->queued},
-                            {"running", s->running}, {"received", s->received}, {"replied", s->replied},
-                            {"refused", s->refused}, {"uptime_s", s->uptime_s}};
+  if (!s)
+    throw std::runtime_error(
+        fmt::format("no server on {} within {} s", choose_url(o.url), o.timeout_s));
+  const nlohmann::json j = {{"version", s->version},   {"model", s->model},
+                            {"queued", s->queued},     {"running", s->running},
+                            {"received", s->received}, {"replied", s->replied},
+                            {"refused", s->refused},   {"uptime_s", s->uptime_s}};
   fmt::print("{}\n", o.json ? j.dump() : j.dump(2));
   return done;
 }

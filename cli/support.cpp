@@ -18,11 +18,13 @@ std::string default_model() {
   const fs::path installed = self.parent_path() / "../share/genio/generic/model.toml";
   if (fs::exists(installed)) return installed.lexically_normal().string();
   for (fs::path up = self.parent_path(); up.has_relative_path(); up = up.parent_path())
-    if (fs::exists(up / "data/generic/model.toml")) return (up / "data/generic/model.toml").string();
+    if (fs::exists(up / "data/generic/model.toml"))
+      return (up / "data/generic/model.toml").string();
   return "data/generic/model.toml";
 }
 
-std::pair<std::string, double> parse_assignment(const std::string& option, const std::string& text) {
+std::pair<std::string, double> parse_assignment(const std::string& option,
+                                                const std::string& text) {
   const auto equals = text.find('=');
   char* end = nullptr;
   const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);

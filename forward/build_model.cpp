@@ -12,9 +12,9 @@
 namespace genio {
 namespace {
 
-constexpr double field_spacing = 2e-3;  // [m]
+constexpr double field_spacing = 2e-3;    // [m]
 constexpr double deepest_overlap = 2e-3;  // at rest [m]
-constexpr double field_reach = 0.02;    // how far from its rest shape the tongue can touch [m]
+constexpr double field_reach = 0.02;      // how far from its rest shape the tongue can touch [m]
 
 /// Takes values out of an effect's table and complains about what is left.
 class TableReader {
@@ -58,8 +58,8 @@ std::shared_ptr<const Effect> make_contact(const std::string& name,
                                            const ModelDescription& d, const std::string& source,
                                            double stiffness) {
   if (!surface)
-    throw InputError(fmt::format("{}: [effect.{}] needs a surface '{}' in [surfaces]", source,
-                                 name, name.substr(0, name.find('_'))));
+    throw InputError(fmt::format("{}: [effect.{}] needs a surface '{}' in [surfaces]", source, name,
+                                 name.substr(0, name.find('_'))));
   const auto field = distance_field(*surface, d.mesh);
   const auto area = nodal_areas(d.mesh, boundary_quads(d.mesh));
   std::vector<ContactNode> nodes;

@@ -110,8 +110,7 @@ bool Cholesky::factorize(const ReducedStiffness& k, double shift) {
   ++factorizations_;
   stay_on_this_thread();
   cholmod_factorize_p(&s, beta, nullptr, 0, impl_->factor, &impl_->common);
-  valid_ = impl_->common.status == CHOLMOD_OK &&
-           impl_->factor->minor == impl_->factor->n;
+  valid_ = impl_->common.status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
   return valid_;
 }
 

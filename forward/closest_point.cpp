@@ -55,16 +55,14 @@ struct SurfaceDistance::Tree {
       const auto& v = tree->surface.vertices;
       const auto& n = tree->surface.triangles[t];
       const auto w = closest_on_triangle(p, v[n[0]], v[n[1]], v[n[2]]);
-      const double d =
-          (p - w[0] * v[n[0]] - w[1] * v[n[1]] - w[2] * v[n[2]]).squaredNorm();
+      const double d = (p - w[0] * v[n[0]] - w[1] * v[n[1]] - w[2] * v[n[2]]).squaredNorm();
       if (d < best) best = d, triangle = t, weight = w;
       return d;
     }
   };
 };
 
-SurfaceDistance::SurfaceDistance(const TriangleSurface& surface)
-    : tree_(std::make_unique<Tree>()) {
+SurfaceDistance::SurfaceDistance(const TriangleSurface& surface) : tree_(std::make_unique<Tree>()) {
   Tree& t = *tree_;
   t.surface = surface;
   t.vertex_normal.assign(surface.vertices.size(), Vec3::Zero());
@@ -73,7 +71,7 @@ SurfaceDistance::SurfaceDistance(const TriangleSurface& surface)
   std::vector<Eigen::AlignedBox3d> boxes;
   for (size_t i = 0; i < surface.triangles.size(); ++i) {
     const auto& n = surface.triangles[i];
-    const Vec3 *v[3] = {&surface.vertices[n[0]], &surface.vertices[n[1]], &surface.vertices[n[2]]};
+    const Vec3* v[3] = {&surface.vertices[n[0]], &surface.vertices[n[1]], &surface.vertices[n[2]]};
     const Vec3 normal = (*v[1] - *v[0]).cross(*v[2] - *v[0]).normalized();
     t.face_normal.push_back(normal);
     Eigen::AlignedBox3d box;

@@ -50,8 +50,7 @@ DistanceField::DistanceField(const TriangleSurface& surface, const Vec3& low, co
     for (int j0 = 0; j0 < ny_; j0 += coarse)
       for (int i0 = 0; i0 < nx_; i0 += coarse) {
         const double middle = 0.5 * (coarse - 1);
-        const double centre =
-            bounded(low + spacing * Vec3(i0 + middle, j0 + middle, k0 + middle));
+        const double centre = bounded(low + spacing * Vec3(i0 + middle, j0 + middle, k0 + middle));
         const bool skip = std::abs(centre) > band + half_diagonal;
         for (int k = k0; k < std::min(nz_, k0 + coarse); ++k)
           for (int j = j0; j < std::min(ny_, j0 + coarse); ++j)

@@ -10,12 +10,12 @@
 namespace genio {
 namespace {
 
-constexpr int stage_tries = 5;         // each 0.4 times as long as the one before
-constexpr double far_step = 2e-3;      // [m]
+constexpr int stage_tries = 5;           // each 0.4 times as long as the one before
+constexpr double shortest_stage = 0.02;  // of the unbalanced force; below it springs do better
+constexpr double far_step = 2e-3;        // [m]
 
 /// Newton iterations from result.x at result.parameters.
-void iterate(const Model& model, Workspace& ws, const SolveOptions& options,
-             Equilibrium& result) {
+void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equilibrium& result) {
   Newton newton(model, result.parameters, ws, options.max_factorizations);
   Positions& x = result.x;
   result.status = SolveStatus::failed;
@@ -47,27 +47,32 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options,
     bool advanced = false;
     if (springs == 0) {
       t = std::min(t, step_limit(model, x, model.dofs.expand(d)));
-      for (int tries = 0; tries < stage_tries && newton.shift() == 0; ++tries, t *= 0.4) {
+      for (int tries = 0; tries < stage_tries && t > shortest_stage && newton.shift() == 0;
+           ++tries, t *= 0.4) {
         advanced = newton.stage(x, r, d, t, t == 1 ? 1e-6 : 1e-3, y, result.newton_iterations);
         if (advanced) break;
         if (!ws.cholesky.valid()) newton.assemble(x, x), d = newton.direction(r, accuracy);
       }
       if (advanced) t = std::min(1.0, 3 * t);
       else springs = std::max(1e-3, 2 * newton.shift()), t = 1;
+    } else if (newton.shift() > 0) {
+      springs = std::max(8 * springs, 2 * newton.shift());
     } else {
-      advanced = newton.shift() == 0 && newton.stage(x, r, d, 1, 1e-2, y, result.newton_iterations);
-      springs *= advanced ? 0.25 : 8;
+      const bool settled = newton.stage(x, r, d, 1, 1e-2, y, result.newton_iterations);
+      // A way down is welcome even where the stage has not settled.
+      advanced = settled || newton.potential(y) < result.energy;
+      springs *= settled ? 0.25 : advanced ? 2 : 8;
       if (springs < 1e-5) springs = 0;
     }
     if (advanced) x = y;
     else if (springs > 1e3) {
       if (result.residual < 100 * options.tolerance) {  // rounding is what is left
-          result.status = SolveStatus::converged;
-          return;
-        }
-        result.message = fmt::format(
-            "no step lowers the energy any more (relative residual {:.1e})", result.residual);
+        result.status = SolveStatus::converged;
         return;
+      }
+      result.message = fmt::format("no step lowers the energy any more (relative residual {:.1e})",
+                                   result.residual);
+      return;
     }
   }
   result.message = fmt::format("not converged in {} Newton steps (relative residual {:.1e})",

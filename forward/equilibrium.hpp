@@ -19,21 +19,21 @@ struct Workspace {
 };
 
 struct SolveOptions {
-  double tolerance = 1e-9;   ///< residual over the applied forces (at least 1 mN)
-  int max_iterations = 100;  ///< Newton steps a load step
+  double tolerance = 1e-9;        ///< residual over the applied forces (at least 1 mN)
+  int max_iterations = 100;       ///< Newton steps a load step
   int max_factorizations = 1000;  ///< gives up beyond
-  int max_load_steps = 64;   ///< where one step from the start does not converge
+  int max_load_steps = 64;        ///< where one step from the start does not converge
 };
 
 enum class SolveStatus { converged, failed };
 
 struct Equilibrium {
   SolveStatus status = SolveStatus::failed;
-  std::string message;      ///< the reason of a failure
-  Positions x;              ///< [m]
+  std::string message;  ///< the reason of a failure
+  Positions x;          ///< [m]
   Parameters parameters;
-  double energy = 0;        ///< [J]
-  double residual = 0;      ///< relative, as in SolveOptions::tolerance
+  double energy = 0;    ///< [J]
+  double residual = 0;  ///< relative, as in SolveOptions::tolerance
   int newton_iterations = 0;
   int factorizations = 0;
   int load_steps = 0;

@@ -34,7 +34,8 @@ std::vector<FibreSegment> share_by_volume(const HexMesh& mesh, const std::vector
     double thickest = 0;
     for (size_t i = 0; i + 1 < fibre.size(); ++i) {
       const double v = segment_volume(mesh, x, elements, fibre[i], fibre[i + 1]);
-      segments.push_back({fibre[i], fibre[i + 1], v});
+      const double length = (fibre[i + 1].position(x) - fibre[i].position(x)).norm();
+      segments.push_back({fibre[i], fibre[i + 1], v, shortest_fibre * length});
       thickest = std::max(thickest, v);
     }
     total += thickest;

@@ -21,15 +21,20 @@ struct FibrePoint {
 
 using Fibre = std::vector<FibrePoint>;
 
+/// A muscle cannot shorten to nothing: below this part of its rest length a segment's tension
+/// fades. Without that, segments collapse to points, where their direction is undefined.
+inline constexpr double shortest_fibre = 0.2;
+
 struct FibreSegment {
   FibrePoint start, end;
-  double share = 0;  ///< tension of this segment per newton of command
+  double share = 0;         ///< tension of this segment per newton of command
+  double short_length = 0;  ///< below it the tension fades [m]
 };
 
 /// One command: a muscle of one side ("GGP_L"), or an unpaired muscle ("SL").
 struct Muscle {
   std::string name;
-  double max_force = 0;                ///< of this side [N]
+  double max_force = 0;  ///< of this side [N]
   std::vector<Fibre> fibres;
   std::vector<int> elements;           ///< elements the muscle runs through
   std::vector<FibreSegment> segments;  ///< all fibres' segments with their shares

@@ -74,8 +74,7 @@ HexMesh read_mesh(const fs::path& folder) {
     for (int& n : e)
       if (!(in >> n) || n < 1 || n > int(mesh.nodes.size()))
         elements.fail(fmt::format("expected 8 node numbers from 1 to {}", mesh.nodes.size()));
-      else
-        --n;
+      else --n;
     mesh.elements.push_back(e);
   }
   return mesh;
@@ -86,7 +85,8 @@ std::map<std::string, std::vector<int>> read_muscle_elements(const fs::path& pat
   Lines lines(path);
   std::map<std::string, std::vector<int>> result;
   std::vector<int> selection;
-  const std::regex select(R"(^\s*ESEL\s*,\s*([SA])\s*,\s*ELEM\s*,\s*,\s*(\d+)\s*(?:,\s*(\d+)\s*(?:,\s*(\d+)\s*)?)?)");
+  const std::regex select(
+      R"(^\s*ESEL\s*,\s*([SA])\s*,\s*ELEM\s*,\s*,\s*(\d+)\s*(?:,\s*(\d+)\s*(?:,\s*(\d+)\s*)?)?)");
   const std::regex name(R"(^\s*CM\s*,\s*(\w+)\s*,\s*ELEM)");
   std::smatch m;
   for (std::string line; lines.next(line);) {
@@ -137,10 +137,8 @@ void read_fibres(const fs::path& path, size_t nodes, std::vector<Muscle>& muscle
       lines.fail("fibre points must be in order");
     if (const auto anchor = anchors.find(n); anchor != anchors.end())
       fibres.back().push_back({-1, anchor->second});
-    else if (n >= 1 && n <= int(nodes))
-      fibres.back().push_back({n - 1, Vec3::Zero()});
-    else
-      lines.fail(fmt::format("node {} is neither in the mesh nor a styloid anchor", n));
+    else if (n >= 1 && n <= int(nodes)) fibres.back().push_back({n - 1, Vec3::Zero()});
+    else lines.fail(fmt::format("node {} is neither in the mesh nor a styloid anchor", n));
   }
 }
 
@@ -161,7 +159,8 @@ std::map<std::string, double> read_max_forces(const fs::path& path) {
 }  // namespace
 
 ModelDescription import_grenoble(const std::string& folder) {
-  const fs::path tongue = fs::path(folder) / "tongue", surfaces = fs::path(folder) / "surfaces_icp_m";
+  const fs::path tongue = fs::path(folder) / "tongue",
+                 surfaces = fs::path(folder) / "surfaces_icp_m";
   if (!fs::is_directory(tongue))
     throw InputError(fmt::format("{}: expected a folder with tongue/ and surfaces_icp_m/", folder));
   ModelDescription d;
@@ -174,7 +173,8 @@ ModelDescription import_grenoble(const std::string& folder) {
   for (int a : read_list(tongue / "jawAttachments.txt", n)) d.supports[a] = Support::fixed;
   for (int a : read_list(tongue / "hyoidAttachments.txt", n)) d.supports[a] = Support::horizontal;
 
-  const auto elements = read_muscle_elements(tongue / "CreateMuscles.mac", int(d.mesh.elements.size()));
+  const auto elements =
+      read_muscle_elements(tongue / "CreateMuscles.mac", int(d.mesh.elements.size()));
   const auto forces = read_max_forces(tongue / "MuscleMaxForce.txt");
   for (const auto& name : read_muscle_names(tongue / "CreateMuscles.mac")) {
     const std::string both = bilateral_name(name);

@@ -133,8 +133,8 @@ Matrix force_derivatives(const Model& model, const Positions& x, const Parameter
   for (size_t c = 0; c < parameters.size(); ++c) {
     const auto& slot = model.parameters[parameters[c]];
     Forces column = Forces::Zero(x.size());
-    model.effects[slot.effect]->add_force_derivative(
-        x, effect_parameters(model, p, slot.effect), slot.index, column);
+    model.effects[slot.effect]->add_force_derivative(x, effect_parameters(model, p, slot.effect),
+                                                     slot.index, column);
     result.col(Eigen::Index(c)) = column;
   }
   return result;

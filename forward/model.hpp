@@ -21,9 +21,9 @@ using Parameters = Eigen::VectorXd;
 
 /// A parameter and where it lives.
 struct ParameterSlot {
-  int effect;         ///< index into Model::effects
-  int index;          ///< index into that effect's parameters
-  std::string name;   ///< "muscles.GGP_L", "gravity.z"
+  int effect;        ///< index into Model::effects
+  int index;         ///< index into that effect's parameters
+  std::string name;  ///< "muscles.GGP_L", "gravity.z"
   ParameterInfo info;
 };
 
@@ -44,8 +44,8 @@ struct Model {
   std::vector<std::shared_ptr<const Effect>> effects;
 
   // Derived by finish():
-  Positions rest;                         ///< [m]
-  std::vector<Quad> surface;              ///< boundary faces
+  Positions rest;             ///< [m]
+  std::vector<Quad> surface;  ///< boundary faces
   DofMap dofs;
   BlockPattern pattern;
   std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another

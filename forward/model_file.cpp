@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 #include <fmt/os.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
-#include <toml++/toml.h>
 
 #include "forward/nearest_name.hpp"
 #include "forward/vtk_io.hpp"
@@ -24,8 +24,7 @@ class Reader {
     try {
       root_ = toml::parse_file(path_);
     } catch (const toml::parse_error& e) {
-      throw InputError(
-          fmt::format("{}:{}: {}", path_, e.source().begin.line, e.description()));
+      throw InputError(fmt::format("{}:{}: {}", path_, e.source().begin.line, e.description()));
     }
   }
   const toml::table& root() const { return root_; }
@@ -84,9 +83,9 @@ void read_mesh(const std::string& path, ModelDescription& d) {
   d.mesh.nodes = data.points;
   for (size_t c = 0; c < data.cells.size(); ++c) {
     if (data.types[c] != 12 || data.cells[c].size() != 8)
-      throw InputError(fmt::format(
-          "{}: cell {} has VTK type {}; expected 8-node hexahedra (type 12)", path, c,
-          data.types[c]));
+      throw InputError(
+          fmt::format("{}: cell {} has VTK type {}; expected 8-node hexahedra (type 12)", path, c,
+                      data.types[c]));
     std::array<int, 8> e;
     std::copy(data.cells[c].begin(), data.cells[c].end(), e.begin());
     d.mesh.elements.push_back(e);
@@ -96,8 +95,8 @@ void read_mesh(const std::string& path, ModelDescription& d) {
   for (size_t a = 0; a < support.values.size(); ++a) {
     const double s = support.values[a];
     if (s != 0 && s != 1 && s != 2)
-      throw InputError(fmt::format("{}: node {} has support {}; expected 0 free, 1 jaw, 2 hyoid",
-                                   path, a, s));
+      throw InputError(
+          fmt::format("{}: node {} has support {}; expected 0 free, 1 jaw, 2 hyoid", path, a, s));
     d.supports.push_back(Support(int(s)));
   }
   const auto& mask = need(data.cell_data, "muscles", path);
@@ -113,14 +112,16 @@ void read_fibres(const std::string& path, ModelDescription& d) {
   for (size_t c = 0; c < data.cells.size(); ++c) {
     const double m = muscle.values[c];
     if (!(m >= 0) || m >= double(d.muscles.size()))
-      throw InputError(fmt::format("{}: fibre {} belongs to muscle {}; the model file has {}",
-                                   path, c, m, d.muscles.size()));
+      throw InputError(fmt::format("{}: fibre {} belongs to muscle {}; the model file has {}", path,
+                                   c, m, d.muscles.size()));
     Fibre fibre;
     for (int p : data.cells[c]) {
       const double n = node.values[p];
       if (!(n >= -1) || n >= double(d.mesh.nodes.size()))
-        throw InputError(fmt::format("{}: point {} sits on node {}; expected -1 (a fixed point) "
-                                     "to {}", path, p, n, d.mesh.nodes.size() - 1));
+        throw InputError(
+            fmt::format("{}: point {} sits on node {}; expected -1 (a fixed point) "
+                        "to {}",
+                        path, p, n, d.mesh.nodes.size() - 1));
       fibre.push_back({int(n), data.points[p]});
     }
     if (fibre.size() < 2)
@@ -128,8 +129,7 @@ void read_fibres(const std::string& path, ModelDescription& d) {
     d.muscles[size_t(m)].fibres.push_back(std::move(fibre));
   }
   for (const auto& m : d.muscles)
-    if (m.fibres.empty())
-      throw InputError(fmt::format("{}: muscle {} has no fibre", path, m.name));
+    if (m.fibres.empty()) throw InputError(fmt::format("{}: muscle {} has no fibre", path, m.name));
 }
 
 void read_muscles(const Reader& r, ModelDescription& d) {
@@ -145,7 +145,8 @@ void read_muscles(const Reader& r, ModelDescription& d) {
     const auto* force = t.get("max_force_N");
     if (!force) r.fail(t, fmt::format("muscle {}: 'max_force_N' is missing", m.name));
     m.max_force = r.number(*force, "max_force_N");
-    if (!(m.max_force > 0)) r.fail(*force, fmt::format("muscle {}: 'max_force_N' must be above 0", m.name));
+    if (!(m.max_force > 0))
+      r.fail(*force, fmt::format("muscle {}: 'max_force_N' must be above 0", m.name));
     if (!names.insert(m.name).second) r.fail(t, fmt::format("muscle {} is named twice", m.name));
     d.muscles.push_back(std::move(m));
   }
@@ -172,8 +173,8 @@ ModelDescription read_description(const std::string& given) {
   fs::path path = given;
   if (fs::is_directory(path)) path /= "model.toml";
   if (!fs::exists(path))
-    throw InputError(fmt::format("{}: no such model file; expected a model.toml or its folder",
-                                 path.string()));
+    throw InputError(
+        fmt::format("{}: no such model file; expected a model.toml or its folder", path.string()));
   const Reader r(path);
   const fs::path folder = path.parent_path();
   r.only(r.root(), {"model", "landmarks", "curve", "surfaces", "muscle", "effect"});
@@ -207,7 +208,8 @@ ModelDescription read_description(const std::string& given) {
   if (r.root().contains("surfaces")) {
     const auto& s = r.table(r.root(), "surfaces");
     r.only(s, {"palate", "jaw", "hyoid"});
-    for (auto [key, target] : {std::pair{"palate", &d.palate}, {"jaw", &d.jaw}, {"hyoid", &d.hyoid}})
+    for (auto [key, target] :
+         {std::pair{"palate", &d.palate}, {"jaw", &d.jaw}, {"hyoid", &d.hyoid}})
       if (s.contains(key)) *target = read_surface((folder / r.text(s, key)).string());
   }
   read_effects(r, d);
@@ -250,14 +252,15 @@ void write_description(const ModelDescription& d, const std::string& folder_name
   write_vtp_lines((folder / "fibres.vtp").string(), fibres);
 
   auto out = fmt::output_file((folder / "model.toml").string());
-  out.print("# Genio tongue model. Lengths in metres; x backwards, y to the speaker's right, z up.\n"
-            "[model]\nname = \"{}\"\nprovenance = \"{}\"\nmesh = \"mesh.vtu\"      # node array "
-            "'support': 0 free, 1 jaw (fixed), 2 hyoid (horizontal plane)\n"
-            "fibres = \"fibres.vtp\"  # one polyline a fibre; 'node' -1 is a fixed point\n"
-            "density_kg_per_m3 = {}\n\n[landmarks]  # node numbers, from 0\ntip = {}\n"
-            "dorsum = {}\nroot = {}\n\n[curve]  # floor, tip, dorsum, root\nmidsagittal = [{}]\n",
-            d.name, d.provenance, d.density, d.landmarks.tip, d.landmarks.dorsum,
-            d.landmarks.root, fmt::join(d.midsagittal, ", "));
+  out.print(
+      "# Genio tongue model. Lengths in metres; x backwards, y to the speaker's right, z up.\n"
+      "[model]\nname = \"{}\"\nprovenance = \"{}\"\nmesh = \"mesh.vtu\"      # node array "
+      "'support': 0 free, 1 jaw (fixed), 2 hyoid (horizontal plane)\n"
+      "fibres = \"fibres.vtp\"  # one polyline a fibre; 'node' -1 is a fixed point\n"
+      "density_kg_per_m3 = {}\n\n[landmarks]  # node numbers, from 0\ntip = {}\n"
+      "dorsum = {}\nroot = {}\n\n[curve]  # floor, tip, dorsum, root\nmidsagittal = [{}]\n",
+      d.name, d.provenance, d.density, d.landmarks.tip, d.landmarks.dorsum, d.landmarks.root,
+      fmt::join(d.midsagittal, ", "));
   out.print("\n[surfaces]\n");
   for (auto [key, surface] : {std::pair{"palate", &d.palate}, {"jaw", &d.jaw}, {"hyoid", &d.hyoid}})
     if (*surface) {
@@ -265,7 +268,9 @@ void write_description(const ModelDescription& d, const std::string& folder_name
       write_obj((folder / file).string(), **surface);
       out.print("{} = \"{}\"\n", key, file);
     }
-  out.print("\n# Bit k of the mesh's cell array 'muscles' and fibre array 'muscle' = k: the k-th below.\n");
+  out.print(
+      "\n# Bit k of the mesh's cell array 'muscles' and fibre array 'muscle' = k: the k-th "
+      "below.\n");
   for (const auto& m : d.muscles)
     out.print("[[muscle]]\nname = \"{}\"\nmax_force_N = {}\n", m.name, m.max_force);
   out.print("\n# One table an effect; an absent table is an absent effect. SI units.\n");

@@ -14,14 +14,14 @@ using EffectTable = std::map<std::string, double>;
 /// What a model folder says, before any effect is built from it.
 struct ModelDescription {
   std::string name;
-  std::string provenance;       ///< where it comes from, one line
+  std::string provenance;  ///< where it comes from, one line
   HexMesh mesh;
   std::vector<Support> supports;
   std::vector<Muscle> muscles;  ///< without segments
   Landmarks landmarks;
   std::vector<int> midsagittal;
   std::optional<TriangleSurface> palate, jaw, hyoid;
-  double density = 1040;        ///< [kg/m^3] (Buchaillard et al. 2009)
+  double density = 1040;                       ///< [kg/m^3] (Buchaillard et al. 2009)
   std::map<std::string, EffectTable> effects;  ///< absent table = absent effect
 };
 

@@ -9,8 +9,9 @@
 
 namespace genio {
 
-inline constexpr int stage_iterations = 10;   // Newton steps towards a part of the load
-inline constexpr int patient_iterations = 14;  // conjugate gradients worth less than a factorisation
+inline constexpr int stage_iterations = 10;  // Newton steps towards a part of the load
+inline constexpr int patient_iterations =
+    14;                                      // conjugate gradients worth less than a factorisation
 inline constexpr double force_floor = 1e-3;  // [N]
 
 /// Everything one Newton solve looks at, so that its steps read like the method.
@@ -157,7 +158,7 @@ class Newton {
   const Parameters& p_;
   Workspace& ws_;
   int last_factorization_;
-  double mean_ = 0;  // of the first tangent's diagonal [N/m]
+  double mean_ = 0;                                     // of the first tangent's diagonal [N/m]
   double spring_ = 0, shift_ = 0, first_shift_ = 1e-4;  // over mean_
 };
 

@@ -11,7 +11,8 @@ namespace genio {
 Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
                    std::span<const int> parameters, Workspace& ws);
 
-/// As above for any combinations of parameters, given by their dF/dp as nodal forces, a column each.
+/// As above for any combinations of parameters, given by their dF/dp as nodal forces, a column
+/// each.
 Matrix sensitivity_to_forces(const Model& model, const Equilibrium& equilibrium,
                              const Matrix& force_derivatives, Workspace& ws);
 

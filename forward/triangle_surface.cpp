@@ -1,12 +1,12 @@
 #include "forward/triangle_surface.hpp"
 
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
 #include <fmt/format.h>
 #include <fmt/os.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <filesystem>
 #include <map>
 #include <queue>
@@ -62,8 +62,8 @@ TriangleSurface read_surface(const std::string& path) {
       path, aiProcess_Triangulate | aiProcess_RemoveComponent | aiProcess_JoinIdenticalVertices |
                 aiProcess_SortByPType | aiProcess_PreTransformVertices);
   if (!scene)
-    throw InputError(fmt::format("{}: cannot be read as STL, OBJ or PLY ({})", path,
-                                 importer.GetErrorString()));
+    throw InputError(
+        fmt::format("{}: cannot be read as STL, OBJ or PLY ({})", path, importer.GetErrorString()));
   TriangleSurface s;
   std::map<std::array<float, 3>, int> index;  // meshes of one file may repeat a vertex
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
@@ -93,8 +93,7 @@ void write_obj(const std::string& path, const TriangleSurface& surface) {
   auto out = fmt::output_file(path);
   out.print("# metres; x backwards, y to the speaker's right, z up\n");
   for (const Vec3& v : surface.vertices) out.print("v {:.6f} {:.6f} {:.6f}\n", v[0], v[1], v[2]);
-  for (const auto& t : surface.triangles)
-    out.print("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  for (const auto& t : surface.triangles) out.print("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
 }
 
 std::vector<std::vector<Eigen::Vector2d>> midsagittal_cut(const TriangleSurface& s) {

@@ -23,8 +23,12 @@ std::vector<uint8_t> decode_base64(std::string_view text) {
     else if (c >= '0' && c <= '9') v = c - '0' + 52;
     else if (c == '+') v = 62;
     else if (c == '/') v = 63;
-    else if (c == '=') { held = 0, bits = 0; continue; }  // a header block ends with padding
-    else continue;
+    else if (c == '=') {
+      held = 0, bits = 0;
+      continue;
+    }  // a header block ends with padding
+    else
+      continue;
     bits = bits << 6 | uint32_t(v);
     if ((held += 6) >= 8) bytes.push_back(uint8_t(bits >> (held -= 8)));
   }
@@ -42,7 +46,8 @@ void unpack(const std::vector<uint8_t>& bytes, size_t offset, std::vector<double
 
 VtkArray read_array(const std::string& path, const pugi::xml_node& node, bool wide_header) {
   VtkArray a;
-  const std::string name = node.attribute("Name").as_string(), type = node.attribute("type").as_string();
+  const std::string name = node.attribute("Name").as_string(),
+                    type = node.attribute("type").as_string();
   const std::string format = node.attribute("format").as_string("ascii");
   a.components = node.attribute("NumberOfComponents").as_int(1);
   a.integer = type.find("Int") != std::string::npos;
@@ -94,13 +99,14 @@ void read_cells(const std::string& path, const pugi::xml_node& node, bool wide, 
     for (; at < size_t(end); ++at) {
       const double point = connectivity.values[at];
       if (!(point >= 0) || point >= double(data.points.size()))
-        throw InputError(fmt::format("{}: cell {} names point {}; the file has {} points", path,
-                                     c, point, data.points.size()));
+        throw InputError(fmt::format("{}: cell {} names point {}; the file has {} points", path, c,
+                                     point, data.points.size()));
       cell.push_back(int(point));
     }
     data.cells.push_back(std::move(cell));
-    data.types.push_back(fixed_type ? fixed_type
-                         : c < types.values.size() ? int(types.values[c]) : 0);
+    data.types.push_back(fixed_type                ? fixed_type
+                         : c < types.values.size() ? int(types.values[c])
+                                                   : 0);
   }
 }
 
@@ -183,10 +189,11 @@ VtkData read_vtk(const std::string& path) {
 
 void write_vtu(const std::string& path, const VtkData& data) {
   auto out = fmt::output_file(path);
-  out.print("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-            "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
-            "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
-            data.points.size(), data.cells.size());
+  out.print(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+      "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
+      data.points.size(), data.cells.size());
   print_array(out, "Points", points_array(data));
   out.print("</Points>\n<Cells>\n");
   print_cells(out, data, true);
@@ -197,11 +204,12 @@ void write_vtu(const std::string& path, const VtkData& data) {
 
 void write_vtp_lines(const std::string& path, const VtkData& data) {
   auto out = fmt::output_file(path);
-  out.print("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-            "byte_order=\"LittleEndian\">\n<PolyData>\n<Piece NumberOfPoints=\"{}\" "
-            "NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
-            "NumberOfPolys=\"0\">\n<Points>\n",
-            data.points.size(), data.cells.size());
+  out.print(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\">\n<PolyData>\n<Piece NumberOfPoints=\"{}\" "
+      "NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"0\">\n<Points>\n",
+      data.points.size(), data.cells.size());
   print_array(out, "Points", points_array(data));
   out.print("</Points>\n<Lines>\n");
   print_cells(out, data, false);

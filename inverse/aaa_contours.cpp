@@ -98,7 +98,8 @@ ContourFile read_aaa_contours(const std::string& path) {
       if (missing_x && missing_y) continue;
       double x = 0, y = 0;
       if (!parse_number(tx, x) || !parse_number(ty, y))
-        lines.fail(fmt::format("knot {}: '{}', '{}'; expected two finite numbers or '*'", k, tx, ty));
+        lines.fail(
+            fmt::format("knot {}: '{}', '{}'; expected two finite numbers or '*'", k, tx, ty));
       ContourPoint p;
       p.position = 1e-3 * Vec3(-x, 0, y);
       p.position[1] = std::numeric_limits<double>::quiet_NaN();

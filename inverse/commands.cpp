@@ -8,7 +8,8 @@ std::vector<Command> muscle_commands(const Model& model, bool bilateral) {
   std::vector<Command> commands;
   for (const auto& muscle : model.muscles) {
     const std::string name = bilateral ? bilateral_name(muscle.name) : muscle.name;
-    if (std::any_of(commands.begin(), commands.end(), [&](const auto& c) { return c.name == name; }))
+    if (std::any_of(commands.begin(), commands.end(),
+                    [&](const auto& c) { return c.name == name; }))
       continue;
     Command c{name, 0, command_parameters(model, name), {}};
     for (int k : c.parameters) c.max_force += model.parameters[k].info.upper;

@@ -19,9 +19,9 @@ ContourFile read_contours(const std::string& path, const std::string& format) {
   }
   if (first.find('\t') != std::string::npos) return read_aaa_contours(path);
   if (first.find(',') != std::string::npos) return read_csv_contours(path);
-  throw InputError(fmt::format(
-      "{}:{}: neither tab-separated (AAA) nor comma-separated (CSV); give --format", path,
-      std::max(1, lines.number())));
+  throw InputError(
+      fmt::format("{}:{}: neither tab-separated (AAA) nor comma-separated (CSV); give --format",
+                  path, std::max(1, lines.number())));
 }
 
 }  // namespace genio

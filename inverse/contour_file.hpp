@@ -10,17 +10,17 @@ namespace genio {
 
 /// One point as the file gives it, in metres and in the file's own axes until registered.
 struct ContourPoint {
-  Vec3 position;        ///< [m]; y NaN where not given
-  double sigma = 0;     ///< [m]; 0: the caller's noise
-  std::string kind;     ///< "curve", "surface", or a flesh point's name
+  Vec3 position;     ///< [m]; y NaN where not given
+  double sigma = 0;  ///< [m]; 0: the caller's noise
+  std::string kind;  ///< "curve", "surface", or a flesh point's name
 };
 
 /// One shape: a frame of a recording.
 struct ContourFrame {
-  int number = 0;       ///< data row (AAA) or value of the frame column (CSV)
-  std::string label;    ///< prompt, word or label, where given
+  int number = 0;     ///< data row (AAA) or value of the frame column (CSV)
+  std::string label;  ///< prompt, word or label, where given
   double time_s = 0;
-  std::string note;     ///< why it has no points, if it has none
+  std::string note;  ///< why it has no points, if it has none
   std::vector<ContourPoint> points;
 };
 

@@ -12,8 +12,8 @@
 namespace genio {
 namespace {
 
-const std::vector<std::string> known_columns = {"frame", "point", "x_mm",  "y_mm",  "z_mm",
-                                                "sigma_mm", "kind", "label", "time_s"};
+const std::vector<std::string> known_columns = {"frame",    "point", "x_mm",  "y_mm",  "z_mm",
+                                                "sigma_mm", "kind",  "label", "time_s"};
 
 }  // namespace
 
@@ -43,7 +43,8 @@ ContourFile read_csv_contours(const std::string& path) {
     const auto number = [&](const std::string& name) {
       double v = 0;
       if (!parse_number(fields[column.at(name)], v))
-        lines.fail(fmt::format("field {}: '{}' is not a finite number", name, fields[column.at(name)]));
+        lines.fail(
+            fmt::format("field {}: '{}' is not a finite number", name, fields[column.at(name)]));
       return v;
     };
     const double frame = number("frame");

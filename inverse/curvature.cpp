@@ -31,8 +31,8 @@ Vector misfit_gradient(const Residuals& residuals, const Vector& values, Eigen::
 
 Matrix misfit_curvature(const Model& model, const Comparison& comparison,
                         const std::vector<Command>& commands, const Equilibrium& equilibrium,
-                        const Residuals& residuals, const Matrix& positions,
-                        const Vector& adjoint, Workspace& ws) {
+                        const Residuals& residuals, const Matrix& positions, const Vector& adjoint,
+                        Workspace& ws) {
   const Positions& x = equilibrium.x;
   const Parameters& p = equilibrium.parameters;
   const Eigen::Index n = positions.cols();
@@ -50,7 +50,8 @@ Matrix misfit_curvature(const Model& model, const Comparison& comparison,
       const Positions y = x + e * positions.col(i);
       stiffness(model, y, p, ws.stiffness);
       slope += (misfit_gradient(comparison(y), residuals.values, x.size()) -
-                ws.stiffness.multiply(adjoint)) / (2 * e);
+                ws.stiffness.multiply(adjoint)) /
+               (2 * e);
       work += command_pulls(model, commands, y, p).transpose() * adjoint / (2 * e);
     }
     shapes.row(i) = positions.transpose() * slope;

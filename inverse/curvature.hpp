@@ -1,8 +1,8 @@
 #pragma once
 // What Gauss-Newton leaves out of the Hessian of the misfit.
 
-#include "inverse/commands.hpp"
 #include "forward/equilibrium.hpp"
+#include "inverse/commands.hpp"
 #include "inverse/target.hpp"
 
 namespace genio {
@@ -22,7 +22,7 @@ Vector misfit_gradient(const Residuals& residuals, const Vector& values, Eigen::
 /// assembly a command and no factorisation; uses ws.stiffness only.
 Matrix misfit_curvature(const Model& model, const Comparison& comparison,
                         const std::vector<Command>& commands, const Equilibrium& equilibrium,
-                        const Residuals& residuals, const Matrix& positions,
-                        const Vector& adjoint, Workspace& ws);
+                        const Residuals& residuals, const Matrix& positions, const Vector& adjoint,
+                        Workspace& ws);
 
 }  // namespace genio

@@ -12,7 +12,7 @@ namespace genio {
 namespace {
 
 constexpr double bone_tolerance = 0;  // [m]
-constexpr double too_far = 0.12;  // [m] from the middle of the tongue
+constexpr double too_far = 0.12;      // [m] from the middle of the tongue
 
 /// Leaves out the ends of a contour that run through jaw or palate: where the tongue's edge fades,
 /// trackers follow something else. Only whole ends, never points from the middle.
@@ -49,8 +49,8 @@ int flesh_node(const Model& model, const std::string& name) {
     char* end = nullptr;
     const long n = std::strtol(name.c_str() + 5, &end, 10);
     if (name.size() > 5 && !*end && n >= 0 && n < long(model.mesh.nodes.size())) return int(n);
-    throw InputError(fmt::format("kind '{}': expected node:0 to node:{}", name,
-                                 model.mesh.nodes.size() - 1));
+    throw InputError(
+        fmt::format("kind '{}': expected node:0 to node:{}", name, model.mesh.nodes.size() - 1));
   }
   throw InputError(fmt::format(
       "kind '{}': unknown; did you mean {}?", name,
@@ -92,7 +92,8 @@ Target make_target(const Model& model, const ContourFrame& frame,
     if ((high - low).norm() < 1e-3)
       throw InputError(fmt::format(
           "frame {}: all points lie within {:.3g} mm; a tongue contour has 20 to 150 mm. Wrong "
-          "units? Expected millimetres", frame.number, 1e3 * (high - low).norm()));
+          "units? Expected millimetres",
+          frame.number, 1e3 * (high - low).norm()));
   }
   return target;
 }

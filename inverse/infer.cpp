@@ -8,20 +8,28 @@ namespace genio {
 
 const char* to_string(InferStatus status) {
   switch (status) {
-    case InferStatus::converged: return "converged";
-    case InferStatus::deadline: return "deadline";
-    case InferStatus::cancelled: return "cancelled";
-    case InferStatus::failed: return "failed";
+    case InferStatus::converged:
+      return "converged";
+    case InferStatus::deadline:
+      return "deadline";
+    case InferStatus::cancelled:
+      return "cancelled";
+    case InferStatus::failed:
+      return "failed";
   }
   return "failed";
 }
 
 const char* to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::none: return "none";
-    case Verdict::explained: return "explained";
-    case Verdict::unreachable: return "unreachable";
-    case Verdict::mismatch: return "mismatch";
+    case Verdict::none:
+      return "none";
+    case Verdict::explained:
+      return "explained";
+    case Verdict::unreachable:
+      return "unreachable";
+    case Verdict::mismatch:
+      return "mismatch";
   }
   return "none";
 }
@@ -50,8 +58,9 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
   }
   const OptimiserResult optimum = minimise(objective, start, true, options);
   answer.iterations += optimum.iterations;
-  answer.status = optimum.converged ? InferStatus::converged
-                  : objective.stopped() ? objective.stop_reason() : InferStatus::failed;
+  answer.status = optimum.converged     ? InferStatus::converged
+                  : objective.stopped() ? objective.stop_reason()
+                                        : InferStatus::failed;
   answer.message = optimum.message;
   if (answer.status == InferStatus::converged) {
     // What the barrier holds off a bound it would reach belongs on it.

@@ -22,10 +22,10 @@ struct InferOptions {
   std::optional<bool> bilateral;  ///< unset: left and right together for midsagittal targets
   double deadline_s = 0;          ///< 0: none
   int max_iterations = 60;
-  double tolerance = 1e-4;        ///< of the fall of the objective still to be had
-  Vector start;                   ///< activations to start from; empty: rest
-  std::optional<Positions> start_shape;        ///< the equilibrium shape of `start`
-  std::function<bool()> cancelled;             ///< asked between steps; true ends the work
+  double tolerance = 1e-4;               ///< of the fall of the objective still to be had
+  Vector start;                          ///< activations to start from; empty: rest
+  std::optional<Positions> start_shape;  ///< the equilibrium shape of `start`
+  std::function<bool()> cancelled;       ///< asked between steps; true ends the work
   std::function<void(int iteration, double rms)> progress;  ///< rms in m
 };
 
@@ -39,22 +39,22 @@ const char* to_string(Verdict verdict);
 struct CommandEstimate {
   std::string name;
   double force = 0, max_force = 0;
-  double sd = 0;                    ///< Laplace standard deviation
-  double low = 0, high = 0;         ///< 90 % interval; one-sided where the force is at a bound
+  double sd = 0;             ///< Laplace standard deviation
+  double low = 0, high = 0;  ///< 90 % interval; one-sided where the force is at a bound
   bool at_lower = false, at_upper = false;
 };
 
 struct Answer {
   InferStatus status = InferStatus::failed;
-  std::string message;              ///< reason of a failure, or of the verdict
+  std::string message;  ///< reason of a failure, or of the verdict
   Verdict verdict = Verdict::none;
   std::vector<CommandEstimate> commands;
   std::vector<std::vector<std::string>> unidentified;  ///< muscles the data cannot tell apart
-  double rms = 0, max = 0;          ///< distance of the measured points from the shape [m]
+  double rms = 0, max = 0;  ///< distance of the measured points from the shape [m]
   double chi2_per_dof = 0;
   Residuals residuals;
   Vector activations;
-  Positions shape;                  ///< [m]
+  Positions shape;  ///< [m]
   int iterations = 0, factorizations = 0, forward_solves = 0;
   double wall_s = 0;
 };

@@ -26,7 +26,8 @@ Objective::Objective(const Model& model, const Comparison& comparison, const Pri
       comparison_(comparison),
       options_(options),
       ws_(ws),
-      commands_(muscle_commands(model, options.bilateral.value_or(comparison.target().midsagittal()))),
+      commands_(
+          muscle_commands(model, options.bilateral.value_or(comparison.target().midsagittal()))),
       base_(default_parameters(model)),
       effort_weight_(1 / (prior.effort_sd * prior.effort_sd)),
       factorizations_before_(ws.cholesky.factorizations()),
@@ -39,13 +40,14 @@ double Objective::seconds() const {
 bool Objective::stopped() {
   if (stop_ != InferStatus::converged) return true;
   if (options_.cancelled && options_.cancelled()) stop_ = InferStatus::cancelled;
-  else if (options_.deadline_s > 0 && seconds() > options_.deadline_s) stop_ = InferStatus::deadline;
+  else if (options_.deadline_s > 0 && seconds() > options_.deadline_s)
+    stop_ = InferStatus::deadline;
   return stop_ != InferStatus::converged;
 }
 
 void Objective::weigh(ObjectivePoint& p) const {
-  p.value = 0.5 * p.residuals.values.squaredNorm() +
-            0.5 * effort_weight_ * p.activations.squaredNorm();
+  p.value =
+      0.5 * p.residuals.values.squaredNorm() + 0.5 * effort_weight_ * p.activations.squaredNorm();
   if (p.positions.size() > 0)
     p.gradient = p.jacobian.transpose() * p.residuals.values + effort_weight_ * p.activations;
 }
@@ -104,8 +106,8 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
   if (have_anchor_ && same(anchor_.activations, activations)) return &anchor_;
   if (!value(activations)) return nullptr;
   ObjectivePoint point = last_;
-  const Matrix pull = command_pulls(model_, commands_, point.equilibrium.x,
-                                    point.equilibrium.parameters);
+  const Matrix pull =
+      command_pulls(model_, commands_, point.equilibrium.x, point.equilibrium.parameters);
   point.positions = sensitivity_to_forces(model_, point.equilibrium, pull, ws_);
   if (point.positions.size() == 0) {
     failure_ = "the equilibrium is unstable";

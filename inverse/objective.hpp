@@ -17,7 +17,7 @@ struct ObjectivePoint {
   Matrix positions;  ///< dx/d activation, 3 n x count
   Matrix jacobian;   ///< d residual / d activation
   Vector gradient;
-  Vector adjoint;    ///< K^-1 of the misfit's derivative with respect to the positions
+  Vector adjoint;            ///< K^-1 of the misfit's derivative with respect to the positions
   mutable Matrix curvature;  ///< misfit_curvature(), once asked for
 };
 

@@ -1,17 +1,18 @@
 #include "inverse/optimiser.hpp"
 
+#include <fmt/format.h>
+
 #include <coin/IpIpoptApplication.hpp>
 #include <coin/IpTNLP.hpp>
-#include <fmt/format.h>
 #include <mutex>
 #include <vector>
 
 namespace genio {
 namespace {
 
+using Eigen::Map;
 using Ipopt::Index;
 using Ipopt::Number;
-using Eigen::Map;
 
 constexpr size_t patience = 5;           // iterations
 constexpr double least_progress = 1e-3;  // in them, of the objective and of its unit
@@ -118,8 +119,7 @@ OptimiserResult minimise(Objective& objective, const Vector& start, bool warm,
   static std::mutex turn;
   const std::lock_guard lock(turn);
   OptimiserResult result;
-  Ipopt::SmartPtr<CommandProblem> problem =
-      new CommandProblem(objective, start, options, result);
+  Ipopt::SmartPtr<CommandProblem> problem = new CommandProblem(objective, start, options, result);
   Ipopt::SmartPtr<Ipopt::IpoptApplication> app = new Ipopt::IpoptApplication(false);
   bool accepted = true;
   const auto set = [&](const char* name, auto value) {
@@ -127,8 +127,7 @@ OptimiserResult minimise(Objective& objective, const Vector& start, bool warm,
       accepted &= app->Options()->SetStringValue(name, value);
     else if constexpr (std::is_same_v<decltype(value), int>)
       accepted &= app->Options()->SetIntegerValue(name, value);
-    else
-      accepted &= app->Options()->SetNumericValue(name, value);
+    else accepted &= app->Options()->SetNumericValue(name, value);
   };
   set("print_level", 0);
   set("sb", "yes");
@@ -151,16 +150,16 @@ OptimiserResult minimise(Objective& objective, const Vector& start, bool warm,
   const auto status = app->OptimizeTNLP(problem);
   const bool solved =
       status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level;
-  const bool settled = !objective.stopped() && (problem->settled() ||
-                       objective.promised_gain() < 100 * options.tolerance);
+  const bool settled = !objective.stopped() &&
+                       (problem->settled() || objective.promised_gain() < 100 * options.tolerance);
   result.converged = solved || settled || (problem->stalled() && !objective.stopped());
   if (solved && problem->final_point().size()) result.activations = problem->final_point();
   else if (settled) result.activations = objective.latest()->activations;
   else result.activations = problem->best_point();
   if (!result.converged)
-    result.message = fmt::format("the optimiser stopped (Ipopt status {}){}{}", int(status),
-                                 objective.last_failure().empty() ? "" : ": ",
-                                 objective.last_failure());
+    result.message =
+        fmt::format("the optimiser stopped (Ipopt status {}){}{}", int(status),
+                    objective.last_failure().empty() ? "" : ": ", objective.last_failure());
   return result;
 }
 

@@ -13,7 +13,8 @@ constexpr double bound_margin = 2e-4;  // activation this near a bound sits at i
 constexpr double test_level = 0.01;
 
 /// Groups of commands that dominate a direction about which the data say less than the prior.
-std::vector<std::vector<std::string>> unseen_directions(const Matrix& jacobian, double effort_weight,
+std::vector<std::vector<std::string>> unseen_directions(const Matrix& jacobian,
+                                                        double effort_weight,
                                                         const std::vector<Command>& commands) {
   std::vector<std::vector<std::string>> groups;
   const Matrix information = jacobian.transpose() * jacobian;
@@ -34,8 +35,11 @@ std::vector<std::vector<std::string>> unseen_directions(const Matrix& jacobian, 
 std::string region(const TongueLine& line, const Positions& x, const Vec3& place) {
   const double t = line.closest(x, Vec2(place[0], place[2])).t;
   const double from_tip = (t - line.tip_parameter()) / (line.length() - line.tip_parameter());
-  return from_tip < 0 ? "underside" : from_tip < 0.1 ? "tip" : from_tip < 0.3 ? "blade"
-         : from_tip < 0.65 ? "dorsum" : "root";
+  return from_tip < 0      ? "underside"
+         : from_tip < 0.1  ? "tip"
+         : from_tip < 0.3  ? "blade"
+         : from_tip < 0.65 ? "dorsum"
+                           : "root";
 }
 
 std::string list(const std::vector<std::string>& names) {
@@ -82,9 +86,8 @@ double chi_square_tail(double chi2, double dof) {
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-void summarise_posterior(const Objective& objective,
-                         const ObjectivePoint& optimum, const Comparison& comparison,
-                         Answer& answer) {
+void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
+                         const Comparison& comparison, Answer& answer) {
   const auto& commands = objective.commands();
   const Matrix h = objective.hessian(optimum);
   const Vector& z = optimum.activations;
@@ -120,8 +123,7 @@ void summarise_posterior(const Objective& objective,
     answer.commands.push_back(
         {command.name, z[i] * unit, unit, s.sd * unit, s.low * unit, s.high * unit, low, high});
   }
-  answer.unidentified =
-      unseen_directions(optimum.jacobian, objective.effort_weight(), commands);
+  answer.unidentified = unseen_directions(optimum.jacobian, objective.effort_weight(), commands);
 
   const Matrix j_free = optimum.jacobian(Eigen::all, free);
   const double used = free.empty() ? 0.0 : (j_free * covariance * j_free.transpose()).trace();
@@ -131,8 +133,8 @@ void summarise_posterior(const Objective& objective,
   const double tail = chi_square_tail(chi2, dof);
   Eigen::Index worst = 0;
   if (optimum.residuals.distances.size() > 0) optimum.residuals.distances.maxCoeff(&worst);
-  const std::string where = region(comparison.line(), optimum.equilibrium.x,
-                                   optimum.residuals.places[size_t(worst)]);
+  const std::string where =
+      region(comparison.line(), optimum.equilibrium.x, optimum.residuals.places[size_t(worst)]);
   if (tail >= test_level) {
     answer.verdict = Verdict::explained;
     answer.message = fmt::format("misfit within noise (p = {:.2g})", tail);

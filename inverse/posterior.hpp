@@ -31,8 +31,7 @@ double chi_square_tail(double chi2, double dof);
 /// effective parameters as degrees of freedom: passed is `explained`. Otherwise `unreachable` when
 /// the Gauss-Newton step of the problem without bounds would take away at least half of the excess
 /// (the bounds stop it), else `mismatch`.
-void summarise_posterior(const Objective& objective,
-                         const ObjectivePoint& optimum, const Comparison& comparison,
-                         Answer& answer);
+void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
+                         const Comparison& comparison, Answer& answer);
 
 }  // namespace genio

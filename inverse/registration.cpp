@@ -9,7 +9,7 @@
 namespace genio {
 namespace {
 
-constexpr double palate_sd = 2e-3, tongue_sd = 5e-3;            // [m]
+constexpr double palate_sd = 2e-3, tongue_sd = 5e-3;  // [m]
 constexpr double scale_sd = 0.06, tilt_sd = 20 * std::numbers::pi / 180;
 
 struct Polyline {
@@ -55,7 +55,8 @@ struct Problem {
     const Similarity s = transform(v);
     double sum = 0, misfit = 0;
     for (const Vec2& q : trace) sum += palate.offset(s(q)).squaredNorm() / (palate_sd * palate_sd);
-    for (const Vec2& q : contours) misfit += tongue.offset(s(q)).squaredNorm() / (tongue_sd * tongue_sd);
+    for (const Vec2& q : contours)
+      misfit += tongue.offset(s(q)).squaredNorm() / (tongue_sd * tongue_sd);
     // All contours together weigh as much as 60 independent points.
     if (!contours.empty()) sum += 60 * misfit / double(contours.size());
     return sum + v[0] * v[0] / (tilt_sd * tilt_sd) + v[1] * v[1] / (scale_sd * scale_sd);
@@ -86,11 +87,9 @@ Registration register_by_palate(const Model& model, const std::vector<Vec2>& pal
   for (const Vec2& q : palate_trace) problem.centre += q / double(palate_trace.size());
 
   nlopt::opt optimiser(nlopt::LN_SBPLX, 4);
-  optimiser.set_min_objective(
-      [](const std::vector<double>& v, std::vector<double>&, void* data) {
-        return static_cast<const Problem*>(data)->cost(v);
-      },
-      &problem);
+  optimiser.set_min_objective([](const std::vector<double>& v, std::vector<double>&,
+                                 void* data) { return static_cast<const Problem*>(data)->cost(v); },
+                              &problem);
   optimiser.set_xtol_rel(1e-7);
   optimiser.set_maxeval(2000);
   optimiser.set_initial_step(std::vector<double>{0.1, 0.05, 3e-3, 3e-3});
@@ -109,7 +108,8 @@ Registration register_by_palate(const Model& model, const std::vector<Vec2>& pal
   Registration result;
   result.transform = problem.transform(best_point);
   double sum = 0;
-  for (const Vec2& q : palate_trace) sum += problem.palate.offset(result.transform(q)).squaredNorm();
+  for (const Vec2& q : palate_trace)
+    sum += problem.palate.offset(result.transform(q)).squaredNorm();
   result.palate_rms = std::sqrt(sum / double(palate_trace.size()));
   return result;
 }

@@ -22,10 +22,10 @@ struct Registration {
 
 /// Rigid motion and scale that lay the palate trace onto the model's midsagittal palate. Along a
 /// smooth arch that leaves a slide, a tilt and the scale nearly free: on real ultrasound two
-/// registrations fit the palate equally well (RMS 1 mm). So scale and tilt have weak priors (6 % and
-/// 20 degrees), and the contours of all frames together decide: they lie about the rest shape (5 mm,
-/// as much as 60 points).
-/// Throws InputError when the model has no palate or the trace fewer than 5 points.
+/// registrations fit the palate equally well (RMS 1 mm). So scale and tilt have weak priors (6 %
+/// and 20 degrees), and the contours of all frames together decide: they lie about the rest shape
+/// (5 mm, as much as 60 points). Throws InputError when the model has no palate or the trace fewer
+/// than 5 points.
 Registration register_by_palate(const Model& model, const std::vector<Vec2>& palate_trace,
                                 const std::vector<std::vector<Vec2>>& contours);
 

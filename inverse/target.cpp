@@ -15,6 +15,12 @@ bool Target::midsagittal() const {
   return true;
 }
 
+Target curve_target(const Model& model, const Positions& x, int count, double sigma) {
+  Target t;
+  for (const Vec2& q : TongueLine(model).sample(x, count)) t.curve.push_back({q, sigma});
+  return t;
+}
+
 Comparison::Comparison(const Model& model, Target target)
     : model_(&model), target_(std::move(target)), line_(model) {}
 
@@ -49,8 +55,7 @@ void Comparison::compare_surface(const Positions& x, Residuals& r) const {
     const double sign = normal.dot(face) >= 0 ? 1.0 : -1.0;
     r.values[Eigen::Index(r.gradient.size())] = sign * distance / point.sigma;
     std::vector<std::pair<int, Vec3>> row;
-    for (int k = 0; k < 3; ++k)
-      row.emplace_back(n[k], -sign * weight[k] / point.sigma * normal);
+    for (int k = 0; k < 3; ++k) row.emplace_back(n[k], -sign * weight[k] / point.sigma * normal);
     r.gradient.push_back(std::move(row));
     r.distances[Eigen::Index(r.places.size())] = distance;
     r.places.push_back(foot);
@@ -62,7 +67,8 @@ Residuals Comparison::operator()(const Positions& x) const {
   Eigen::Index rows = Eigen::Index(target_.curve.size() + target_.surface.size());
   for (const auto& f : target_.flesh) rows += std::isnan(f.position[1]) ? 2 : 3;
   r.values.resize(rows);
-  r.distances.resize(Eigen::Index(target_.curve.size() + target_.flesh.size() + target_.surface.size()));
+  r.distances.resize(
+      Eigen::Index(target_.curve.size() + target_.flesh.size() + target_.surface.size()));
   const auto& nodes = line_.nodes();
   for (const auto& point : target_.curve) {
     const auto c = line_.closest(x, point.position);

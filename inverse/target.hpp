@@ -40,13 +40,17 @@ struct Target {
   bool midsagittal() const;
 };
 
+/// The midsagittal line of the shape `x` as a measurement of `count` points.
+Target curve_target(const Model& model, const Positions& x, int count, double sigma);
+
 /// Noise-weighted residuals and their derivative with respect to the nodal positions.
 struct Residuals {
-  Vector values;                                            ///< distance over sigma
-  std::vector<std::vector<std::pair<int, Vec3>>> gradient;  ///< d value / d x_node [1/m], a row each
-  Vector distances;                                         ///< unweighted, one a point [m]
-  std::vector<Vec3> places;                                 ///< where on the model, one a point [m]
-  double rms = 0, max = 0;                                  ///< of distances [m]
+  Vector values;  ///< distance over sigma
+  std::vector<std::vector<std::pair<int, Vec3>>>
+      gradient;              ///< d value / d x_node [1/m], a row each
+  Vector distances;          ///< unweighted, one a point [m]
+  std::vector<Vec3> places;  ///< where on the model, one a point [m]
+  double rms = 0, max = 0;   ///< of distances [m]
 };
 
 /// Compares shapes with a target. Const; serves any number of threads.

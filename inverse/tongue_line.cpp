@@ -37,15 +37,17 @@ Vector TongueLine::basis(double t, int derivative) const {
   const int n = int(knots_.size());
   const double inside = std::clamp(t, 0.0, length());
   if (t != inside)  // straight continuation
-    return derivative == 0 ? Vector(basis(inside, 0) + (t - inside) * basis(inside, 1))
-           : derivative == 1 ? basis(inside, 1) : Vector(Vector::Zero(n));
+    return derivative == 0   ? Vector(basis(inside, 0) + (t - inside) * basis(inside, 1))
+           : derivative == 1 ? basis(inside, 1)
+                             : Vector(Vector::Zero(n));
   int i = int(std::upper_bound(knots_.begin(), knots_.end(), t) - knots_.begin());
   i = std::clamp(i, 1, n - 1);
   const double h = knots_[i] - knots_[i - 1], u = (knots_[i] - t) / h, v = 1 - u;
   Vector w = Vector::Zero(n);
   if (derivative == 0) {
     w[i - 1] = u, w[i] = v;
-    w += h * h / 6 * ((u * u * u - u) * bend_.row(i - 1) + (v * v * v - v) * bend_.row(i)).transpose();
+    w += h * h / 6 *
+         ((u * u * u - u) * bend_.row(i - 1) + (v * v * v - v) * bend_.row(i)).transpose();
   } else if (derivative == 1) {
     w[i - 1] = -1 / h, w[i] = 1 / h;
     w += h / 6 * ((1 - 3 * u * u) * bend_.row(i - 1) + (3 * v * v - 1) * bend_.row(i)).transpose();

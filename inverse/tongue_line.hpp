@@ -44,8 +44,8 @@ class TongueLine {
 
   std::vector<int> nodes_;
   Vector knots_;
-  Matrix bend_;  // second derivatives at the knots = bend_ * values
-  Matrix dense_; // weights at equally spaced parameters, one row each
+  Matrix bend_;   // second derivatives at the knots = bend_ * values
+  Matrix dense_;  // weights at equally spaced parameters, one row each
   double tip_ = 0;
 };
 

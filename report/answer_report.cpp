@@ -81,8 +81,8 @@ void draw_plane(Svg& svg, const Model& model, const AnswerView& v) {
     svg.line(axes.left, axes.py(z), axes.left + axes.width, axes.py(z), {"#eee"});
     svg.text(axes.left - 6, axes.py(z) + 4, fmt::format("{}", z), 11, "end", "#777");
   }
-  svg.text(axes.left + axes.width / 2, axes.top + axes.height + 34, "x [mm], lips left, pharynx right",
-           12, "middle", "#555");
+  svg.text(axes.left + axes.width / 2, axes.top + axes.height + 34,
+           "x [mm], lips left, pharynx right", 12, "middle", "#555");
   for (const auto* surface : {&model.palate, &model.jaw, &model.hyoid})
     if (*surface)
       for (const auto& cut : midsagittal_cut(**surface))
@@ -91,9 +91,14 @@ void draw_plane(Svg& svg, const Model& model, const AnswerView& v) {
   if (!v.predicted.empty()) svg.polyline(axes, in_mm(v.predicted), {blue, "none", 2.6});
   for (const Vec2& p : v.measured)
     svg.circle(axes.px(1e3 * p[0]), axes.py(1e3 * p[1]), 3, {"white", red, 0.7});
-  struct Entry { const char *colour, *name; };
+  struct Entry {
+    const char *colour, *name;
+  };
   double x = axes.left + 8;
-  for (const Entry& e : {Entry{grey, "rest"}, {blue, "predicted"}, {red, "measured"}, {bone, "palate, jaw, hyoid"}}) {
+  for (const Entry& e : {Entry{grey, "rest"},
+                         {blue, "predicted"},
+                         {red, "measured"},
+                         {bone, "palate, jaw, hyoid"}}) {
     svg.line(x, axes.top + 14, x + 22, axes.top + 14, {e.colour, "none", 3});
     svg.text(x + 28, axes.top + 18, e.name, 12, "start");
     x += 100;
@@ -115,11 +120,13 @@ void draw_forces(Svg& svg, const AnswerView& v) {
            "force, % of maximum; bar: 90 % interval", 12, "middle", "#555");
   for (size_t i = 0; i < v.commands.size(); ++i) {
     const auto& c = v.commands[i];
-    const double y0 = axes.py(double(n - i) - 0.2), y1 = axes.py(double(n - i) - 0.8), mid = (y0 + y1) / 2;
+    const double y0 = axes.py(double(n - i) - 0.2), y1 = axes.py(double(n - i) - 0.8),
+                 mid = (y0 + y1) / 2;
     const auto px = [&](double force) { return axes.px(100 * force / c.max_force); };
     svg.rect(axes.left, y0, px(c.force) - axes.left, y1 - y0, {"none", blue});
     svg.line(px(c.low), mid, px(c.high), mid, {"#222", "none", 1.6});
-    for (double end : {c.low, c.high}) svg.line(px(end), mid - 4, px(end), mid + 4, {"#222", "none", 1.6});
+    for (double end : {c.low, c.high})
+      svg.line(px(end), mid - 4, px(end), mid + 4, {"#222", "none", 1.6});
     svg.text(axes.left - 8, mid + 4, c.name, 12, "end");
     svg.text(axes.left + axes.width + 8, mid + 4, fmt::format("{:.2f} N", c.force), 11, "start");
   }
@@ -130,8 +137,9 @@ void draw_forces(Svg& svg, const AnswerView& v) {
 std::string draw(const Model& model, const AnswerView& v) {
   Svg svg(1110, 560);
   svg.text(50, 30, v.title, 17, "start", "#111");
-  svg.text(1060, 30, fmt::format("{}; RMS {:.2f} mm, max {:.2f} mm",
-                                 v.verdict == "none" ? v.status : v.verdict, v.rms_mm, v.max_mm),
+  svg.text(1060, 30,
+           fmt::format("{}; RMS {:.2f} mm, max {:.2f} mm",
+                       v.verdict == "none" ? v.status : v.verdict, v.rms_mm, v.max_mm),
            14, "end", "#111");
   draw_plane(svg, model, v);
   draw_forces(svg, v);

@@ -33,8 +33,8 @@ std::string to_table(const AnswerView& view);
 std::string draw(const Model& model, const AnswerView& view);
 
 /// Writes NAME.svg, NAME.png, NAME.csv and NAME.json into `folder`.
-void write_report(const Model& model, const AnswerView& view, int frame,
-                  const std::string& folder, const std::string& name);
+void write_report(const Model& model, const AnswerView& view, int frame, const std::string& folder,
+                  const std::string& name);
 
 /// The deformed mesh with its displacement, as VTU.
 void write_shape(const Model& model, const Positions& x, const std::string& path);

@@ -55,8 +55,8 @@ void Svg::polyline(const Axes& axes, const std::vector<Eigen::Vector2d>& points,
   body_ += fmt::format("\" {}/>\n", attributes(s));
 }
 
-void Svg::text(double x, double y, const std::string& words, double size,
-               const std::string& anchor, const std::string& colour) {
+void Svg::text(double x, double y, const std::string& words, double size, const std::string& anchor,
+               const std::string& colour) {
   body_ += fmt::format(
       "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\" "
       "font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">{}</text>\n",
@@ -66,13 +66,14 @@ void Svg::text(double x, double y, const std::string& words, double size,
 std::string Svg::str() const {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
-      "{1}\">\n{2}</svg>\n", width_, height_, body_);
+      "{1}\">\n{2}</svg>\n",
+      width_, height_, body_);
 }
 
 void write_png(const std::string& path, const std::string& svg, double scale) {
   GError* error = nullptr;
-  RsvgHandle* handle = rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()),
-                                                 svg.size(), &error);
+  RsvgHandle* handle =
+      rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error);
   if (!handle) {
     const std::string why = error ? error->message : "unknown";
     g_clear_error(&error);
@@ -80,8 +81,8 @@ void write_png(const std::string& path, const std::string& svg, double scale) {
   }
   double width = 0, height = 0;
   rsvg_handle_get_intrinsic_size_in_pixels(handle, &width, &height);
-  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, int(width * scale),
-                                                        int(height * scale));
+  cairo_surface_t* surface =
+      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, int(width * scale), int(height * scale));
   cairo_t* cairo = cairo_create(surface);
   const RsvgRectangle area{0, 0, width * scale, height * scale};
   const bool drawn = rsvg_handle_render_document(handle, cairo, &area, &error);

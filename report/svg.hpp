@@ -1,17 +1,16 @@
 #pragma once
 // Scalable drawings: a canvas in data units, and PNG of what was drawn.
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace genio {
 
 /// Maps a data rectangle onto a rectangle of the picture (pixels, y down).
 struct Axes {
-  double x0, x1, y0, y1;              ///< data
-  double left, top, width, height;    ///< picture
+  double x0, x1, y0, y1;            ///< data
+  double left, top, width, height;  ///< picture
   double px(double x) const { return left + (x - x0) / (x1 - x0) * width; }
   double py(double y) const { return top + (y1 - y) / (y1 - y0) * height; }
 };

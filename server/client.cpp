@@ -19,24 +19,27 @@ std::string unique_name() {
 }  // namespace
 
 Client::Client(const std::string& url) : link_(url), name_(unique_name()) {
-  link_.subscribe("GENIO_REPLY." + name_, [this](const std::string&, const void* data, size_t size) {
-    std::string why;
-    auto reply = decode_checked<command_reply_t>(data, size, why);
-    if (reply && reply->id == waiting_for_) reply_ = std::move(reply);
-  });
-  link_.subscribe("GENIO_PROGRESS." + name_, [this](const std::string&, const void* data, size_t size) {
-    std::string why;
-    const auto p = decode_checked<progress_t>(data, size, why);
-    if (p && p->id == waiting_for_ && progress_) progress_(*p);
-  });
+  link_.subscribe("GENIO_REPLY." + name_,
+                  [this](const std::string&, const void* data, size_t size) {
+                    std::string why;
+                    auto reply = decode_checked<command_reply_t>(data, size, why);
+                    if (reply && reply->id == waiting_for_) reply_ = std::move(reply);
+                  });
+  link_.subscribe("GENIO_PROGRESS." + name_,
+                  [this](const std::string&, const void* data, size_t size) {
+                    std::string why;
+                    const auto p = decode_checked<progress_t>(data, size, why);
+                    if (p && p->id == waiting_for_ && progress_) progress_(*p);
+                  });
   link_.subscribe("GENIO_STATUS", [this](const std::string&, const void* data, size_t size) {
     std::string why;
     status_ = decode_checked<server_status_t>(data, size, why);
   });
 }
 
-std::optional<command_reply_t> Client::request(shape_request_t request, double timeout_s,
-                                               const std::function<void(const progress_t&)>& progress) {
+std::optional<command_reply_t> Client::request(
+    shape_request_t request, double timeout_s,
+    const std::function<void(const progress_t&)>& progress) {
   request.client = name_;
   if (request.id.empty()) request.id = fmt::format("{}-{}", name_, ++sent_);
   request.utime = now_us();

@@ -18,8 +18,9 @@ class Client {
 
   /// Sends the request (filling id, client and time where empty) and waits for its reply; asks
   /// again every 2 s, which a server answers once. Nothing when no reply came in time.
-  std::optional<command_reply_t> request(shape_request_t request, double timeout_s,
-                                         const std::function<void(const progress_t&)>& progress = {});
+  std::optional<command_reply_t> request(
+      shape_request_t request, double timeout_s,
+      const std::function<void(const progress_t&)>& progress = {});
   /// Withdraws a request.
   void cancel(const std::string& id);
   /// The next status message of a server; nothing when none came in time.

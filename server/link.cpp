@@ -38,7 +38,8 @@ Link::Link(const std::string& url) : lcm_(lcm_create(url.c_str())), tcp_(url.sta
   if (!lcm_)
     throw InputError(fmt::format(
         "--lcm {}: cannot be used; expected for example {} or udpm://239.255.76.67:7667?ttl=0 "
-        "(which needs a multicast route)", url, default_url));
+        "(which needs a multicast route)",
+        url, default_url));
   tune();
 }
 

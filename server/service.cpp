@@ -33,7 +33,7 @@ struct Desk {
   std::deque<std::pair<std::string, std::vector<uint8_t>>> outbox;  // channel, bytes
   std::map<std::string, command_reply_t> done;                      // by id
   std::deque<std::string> done_order;
-  std::map<std::string, std::vector<std::string>> clients;          // waiting, by id
+  std::map<std::string, std::vector<std::string>> clients;  // waiting, by id
   std::string running;
   std::map<std::string, bool> cancelled;
   bool closing = false;
@@ -124,11 +124,13 @@ void receive_request(const void* data, size_t size, const ServiceOptions& option
     return desk.reply_to(client, it->second);
   if (const auto it = desk.clients.find(request->id); it != desk.clients.end()) {
     auto& waiting = it->second;
-    if (std::find(waiting.begin(), waiting.end(), client) == waiting.end()) waiting.push_back(client);
+    if (std::find(waiting.begin(), waiting.end(), client) == waiting.end())
+      waiting.push_back(client);
     return;
   }
   if (int(desk.queue.size()) >= options.queue)
-    return refuse(fmt::format("the queue is full ({} requests wait); try again later", desk.queue.size()));
+    return refuse(
+        fmt::format("the queue is full ({} requests wait); try again later", desk.queue.size()));
   desk.clients[request->id] = {client};
   desk.queue.push_back(*request);
   progress_t p{};
@@ -174,7 +176,8 @@ void serve(const Model& model, const ServiceOptions& options, const std::atomic<
         s.utime = now_us(), s.version = GENIO_VERSION, s.model = model.name;
         s.queued = int(desk.queue.size()), s.running = desk.running.empty() ? 0 : 1;
         s.received = desk.received, s.replied = desk.replied, s.refused = desk.refused;
-        s.uptime_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+        s.uptime_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
         leaving.emplace_back("GENIO_STATUS", encode(s));
       }
     }

@@ -12,9 +12,9 @@
 namespace genio {
 
 struct ServiceOptions {
-  std::string url;         ///< as choose_url gives it
-  int queue = 256;         ///< requests that may wait; more are refused with a reply
-  int remembered = 4096;   ///< replies kept for repeated ids
+  std::string url;        ///< as choose_url gives it
+  int queue = 256;        ///< requests that may wait; more are refused with a reply
+  int remembered = 4096;  ///< replies kept for repeated ids
   std::function<void(const std::string& line)> log;
 };
 

@@ -24,21 +24,33 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
   for (const char* f = fields; *f; ++f) {
     bool good = true;
     switch (*f) {
-      case 'l': case 'd': good = skip(8); break;
-      case 'i': good = skip(4); break;
-      case 'b': good = skip(1); break;
-      case 's': good = skip_string(); break;
+      case 'l':
+      case 'd':
+        good = skip(8);
+        break;
+      case 'i':
+        good = skip(4);
+        break;
+      case 'b':
+        good = skip(1);
+        break;
+      case 's':
+        good = skip_string();
+        break;
       case 'n':
         good = read_int(count);
         if (good && (count < 0 || count > max_array_length))
           return "an array claims " + std::to_string(count) + " entries; expected 0 to " +
                  std::to_string(max_array_length);
         break;
-      case 'D': good = skip(8 * size_t(count)); break;
+      case 'D':
+        good = skip(8 * size_t(count));
+        break;
       case 'S':
         for (int32_t i = 0; i < count && good; ++i) good = skip_string();
         break;
-      default: return "unknown layout";
+      default:
+        return "unknown layout";
     }
     if (!good) return "the message ends early or a length in it is wrong";
   }
@@ -47,7 +59,8 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
 
 int64_t now_us() {
   return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch()).count();
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
 }
 
 }  // namespace genio

@@ -20,12 +20,28 @@ inline constexpr int max_array_length = 20000;
 
 /// Fields of a message in order: l int64, i int32, b int8, d double, s string, n int32 that counts
 /// the arrays after it, D double[n], S string[n].
-template <class T> struct WireLayout;
-template <> struct WireLayout<shape_request_t> { static constexpr const char* fields = "lssnDDDDSddb"; };
-template <> struct WireLayout<command_reply_t> { static constexpr const char* fields = "lssssnSDDDDDnSdddiidnDD"; };
-template <> struct WireLayout<progress_t> { static constexpr const char* fields = "lssid"; };
-template <> struct WireLayout<cancel_t> { static constexpr const char* fields = "ls"; };
-template <> struct WireLayout<server_status_t> { static constexpr const char* fields = "lssiillld"; };
+template <class T>
+struct WireLayout;
+template <>
+struct WireLayout<shape_request_t> {
+  static constexpr const char* fields = "lssnDDDDSddb";
+};
+template <>
+struct WireLayout<command_reply_t> {
+  static constexpr const char* fields = "lssssnSDDDDDnSdddiidnDD";
+};
+template <>
+struct WireLayout<progress_t> {
+  static constexpr const char* fields = "lssid";
+};
+template <>
+struct WireLayout<cancel_t> {
+  static constexpr const char* fields = "ls";
+};
+template <>
+struct WireLayout<server_status_t> {
+  static constexpr const char* fields = "lssiillld";
+};
 
 /// Walks the bytes after the fingerprint along `fields`; empty when they fit exactly, else what is
 /// wrong.
@@ -41,7 +57,8 @@ std::optional<T> decode_checked(const void* data, size_t size, std::string& why)
   int64_t hash = 0;
   for (int i = 0; i < 8; ++i) hash = int64_t(uint64_t(hash) << 8 | bytes[i]);
   if (hash != T::getHash())
-    return why = std::string("not a ") + T::getTypeName() + " of this version (fingerprint differs)",
+    return why =
+               std::string("not a ") + T::getTypeName() + " of this version (fingerprint differs)",
            std::nullopt;
   why = scan_layout(bytes + 8, size - 8, WireLayout<T>::fields);
   if (!why.empty()) return std::nullopt;

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <random>
 
+#include "forward/equilibrium.hpp"
 #include "forward/model_file.hpp"
 #include "inverse/target.hpp"
-#include "forward/equilibrium.hpp"
 
 int main(int argc, char** argv) {
   using namespace genio;

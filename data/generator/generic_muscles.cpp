@@ -170,7 +170,8 @@ std::vector<Muscle> make_muscles(const Resolution& r, const NodeAt& node, const 
   sl.max_force = 19;
   for (int k = -l.k(0.6); k <= l.k(0.6); ++k) {
     Fibre f;
-    for (const Grid& g : arc(1, r.along - 2, r.deep, k)) f.push_back({node(g.i, g.j, g.k), Vec3::Zero()});
+    for (const Grid& g : arc(1, r.along - 2, r.deep, k))
+      f.push_back({node(g.i, g.j, g.k), Vec3::Zero()});
     sl.fibres.push_back(std::move(f));
   }
   muscles.push_back(std::move(sl));

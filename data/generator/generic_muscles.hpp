@@ -10,7 +10,6 @@ namespace genio::generic {
 using NodeAt = std::function<int(int, int, int)>;
 
 /// The 11 muscles of the published table as fibres along grid lines, left and right.
-std::vector<Muscle> make_muscles(const Resolution& r, const NodeAt& node,
-                                 const HexMesh& mesh);
+std::vector<Muscle> make_muscles(const Resolution& r, const NodeAt& node, const HexMesh& mesh);
 
 }  // namespace genio::generic

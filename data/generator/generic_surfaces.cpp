@@ -36,7 +36,8 @@ TriangleSurface make_palate() {
     const Point2 p = line.at(u);
     const double width = blend({{0.0, 13.0}, {0.12, 22.0}, {0.35, 28.0}, {1.0, 29.5}}, u);
     // How far the sides hang below the vault: deep in the hard palate, flat in the pharynx.
-    const double arch = blend({{0.0, 3.0}, {0.1, 8.0}, {0.35, 17.0}, {0.55, 15.0}, {0.75, 5.0}, {1.0, 0.0}}, u);
+    const double arch =
+        blend({{0.0, 3.0}, {0.1, 8.0}, {0.35, 17.0}, {0.55, 15.0}, {0.75, 5.0}, {1.0, 0.0}}, u);
     const double drop = arch * std::pow(std::abs(across), 2.6);
     const double forward = blend({{0.6, 0.0}, {1.0, 6.0}}, u) * across * across;
     return Vec3(p[0] - forward, width * across, p[1] - drop);
@@ -61,8 +62,8 @@ TriangleSurface make_hyoid() {
     const double bend = (2 * u - 1) * 0.5 * std::numbers::pi, turn = 2 * std::numbers::pi * v;
     const double thick = 0.3 + 3.7 * std::pow(std::cos(bend), 0.5);
     const Vec3 out(-std::cos(bend), std::sin(bend), 0), up(0, 0, 1);
-    const Vec3 centre = Vec3(127, 0, 53 + 8 * std::pow(std::sin(bend), 2)) +
-                        Vec3(13 * out[0], 22 * out[1], 0);
+    const Vec3 centre =
+        Vec3(127, 0, 53 + 8 * std::pow(std::sin(bend), 2)) + Vec3(13 * out[0], 22 * out[1], 0);
     return Vec3(centre + thick * (std::cos(turn) * out + 1.2 * std::sin(turn) * up));
   });
 }

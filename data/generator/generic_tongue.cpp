@@ -15,27 +15,30 @@ Vec3 grid_point(const Curve& surface, const Curve& front, double u, double depth
   const double side2 = across * across, edge = std::pow(std::abs(across), 3.0);
   const Point2 inner = front.at(u), outer = surface.at(u);
   // Rounded edges: the surface draws back towards the sides, and the outermost layer is narrower.
-  const double round = blend({{0.0, 0.03}, {0.1, 0.05}, {0.3, 0.13}, {0.6, 0.10}, {0.85, 0.04}, {1.0, 0.0}}, u);
+  const double round =
+      blend({{0.0, 0.03}, {0.1, 0.05}, {0.3, 0.13}, {0.6, 0.10}, {0.85, 0.04}, {1.0, 0.0}}, u);
   const double d = depth * (1 - round * edge * depth);
   // The fan's lines leave the front nearly square and bend to their place on the surface.
   const Point2 way = outer - inner;
-  const Point2 handle = inner + way.norm() * (0.30 * front.left_normal(u) + 0.22 * way.normalized());
+  const Point2 handle =
+      inner + way.norm() * (0.30 * front.left_normal(u) + 0.22 * way.normalized());
   const Point2 p = (1 - d) * (1 - d) * inner + 2 * d * (1 - d) * handle + d * d * outer;
   const double y = across * half_width(u, depth) * (1 - 0.10 * std::pow(depth, 6));
   // The floor hangs like a hammock between the mylohyoid lines; the front hugs the chin's curve.
-  const double hammock = blend({{0.6, 0.0}, {1.0, 12.0}}, u) * side2 * (0.15 + 3.2 * depth * (1 - depth));
+  const double hammock =
+      blend({{0.6, 0.0}, {1.0, 12.0}}, u) * side2 * (0.15 + 3.2 * depth * (1 - depth));
   return {p[0] + 1.5 * side2 * (1 - depth), y, p[1] + hammock};
 }
 
 Support support_at(const Resolution& r, int i, int j, int k) {
   const double u = double(i) / r.along, depth = double(j) / r.deep;
   const double across = std::abs(double(k)) / r.across;
-  if (j == 0 && u > 0.12) return Support::fixed;                            // mental symphysis
-  if (across == 1.0 && u > 0.85 && depth < 0.75) return Support::fixed;     // mylohyoid line
+  if (j == 0 && u > 0.12) return Support::fixed;                         // mental symphysis
+  if (across == 1.0 && u > 0.85 && depth < 0.75) return Support::fixed;  // mylohyoid line
   if (across == 1.0 && u > 0.75 && depth < 0.2) return Support::fixed;
-  if (across > 0.5 && u > 0.95 && depth < 0.2) return Support::fixed;       // front of the floor
+  if (across > 0.5 && u > 0.95 && depth < 0.2) return Support::fixed;  // front of the floor
   if (across > 0.7 && u > 0.95 && depth < 0.4) return Support::fixed;
-  if (u > 0.90 && j == r.deep) return Support::horizontal;                  // hyoid
+  if (u > 0.90 && j == r.deep) return Support::horizontal;  // hyoid
   return Support::free;
 }
 

@@ -34,8 +34,9 @@ Curve::Curve(std::vector<Point2> points) : points_(std::move(points)) {
   constexpr int samples = 2000;
   arc_.assign(1, 0.0);
   for (int i = 1; i <= samples; ++i)
-    arc_.push_back(arc_.back() + (raw(knots_.back() * i / samples) -
-                                  raw(knots_.back() * (i - 1) / samples)).norm());
+    arc_.push_back(
+        arc_.back() +
+        (raw(knots_.back() * i / samples) - raw(knots_.back() * (i - 1) / samples)).norm());
   length_ = arc_.back();
 }
 
@@ -74,24 +75,61 @@ double blend(const std::vector<Point2>& table, double u) {
 // (docs/generic.md lists each with its source); the points between them only keep the curve smooth.
 
 Curve surface_line() {
-  return Curve({{60.0, 92.8}, {57.2, 96.4}, {58.6, 100.8}, {66.5, 106.0}, {80.0, 111.2},
-                {94.8, 113.7}, {110.0, 110.5}, {121.5, 100.5}, {127.4, 88.1}, {127.6, 76.0},
-                {123.0, 66.5}, {115.5, 60.5}, {107.5, 55.5}});
+  return Curve({{60.0, 92.8},
+                {57.2, 96.4},
+                {58.6, 100.8},
+                {66.5, 106.0},
+                {80.0, 111.2},
+                {94.8, 113.7},
+                {110.0, 110.5},
+                {121.5, 100.5},
+                {127.4, 88.1},
+                {127.6, 76.0},
+                {123.0, 66.5},
+                {115.5, 60.5},
+                {107.5, 55.5}});
 }
 
-Curve front_line() { return Curve({{70.5, 88.6}, {74.5, 88.2}, {77.5, 86.0}, {78.6, 80.5}, {77.8, 72.0}, {77.0, 64.0}, {76.0, 56.5}}); }
+Curve front_line() {
+  return Curve({{70.5, 88.6},
+                {74.5, 88.2},
+                {77.5, 86.0},
+                {78.6, 80.5},
+                {77.8, 72.0},
+                {77.0, 64.0},
+                {76.0, 56.5}});
+}
 
 Curve palate_line() {
-  return Curve({{50.0, 101.0}, {53.5, 107.0}, {62.0, 111.5}, {73.0, 117.5}, {85.0, 121.2},
-                {97.0, 122.0}, {110.0, 119.0}, {121.0, 113.5}, {130.0, 105.0}, {135.5, 93.0},
-                {137.5, 78.0}, {137.0, 60.0}});
+  return Curve({{50.0, 101.0},
+                {53.5, 107.0},
+                {62.0, 111.5},
+                {73.0, 117.5},
+                {85.0, 121.2},
+                {97.0, 122.0},
+                {110.0, 119.0},
+                {121.0, 113.5},
+                {130.0, 105.0},
+                {135.5, 93.0},
+                {137.5, 78.0},
+                {137.0, 60.0}});
 }
 
-Curve jaw_line() { return Curve({{74.5, 54.0}, {75.3, 63.0}, {74.6, 72.0}, {67.0, 82.0}, {57.5, 90.5}, {53.0, 95.0}}); }
+Curve jaw_line() {
+  return Curve(
+      {{74.5, 54.0}, {75.3, 63.0}, {74.6, 72.0}, {67.0, 82.0}, {57.5, 90.5}, {53.0, 95.0}});
+}
 
 double half_width(double u, double depth) {
-  const double at_surface = blend({{0.0, 9.5}, {0.05, 10.0}, {0.16, 17.0}, {0.30, 21.5},
-                                   {0.45, 23.5}, {0.62, 26.0}, {0.80, 30.0}, {1.0, 24.0}}, u);
+  const double at_surface = blend({{0.0, 9.5},
+                                   {0.05, 10.0},
+                                   {0.16, 17.0},
+                                   {0.30, 21.5},
+                                   {0.45, 23.5},
+                                   {0.62, 26.0},
+                                   {0.80, 30.0},
+                                   {1.0, 24.0}},
+                                  u);
   const double at_front = blend({{0.0, 8.5}, {0.4, 9.5}, {1.0, 9.5}}, u);
   // The lower, rear part spreads towards the mandible before it narrows to the hyoid.
   const double spread = blend({{0.55, 0.0}, {0.8, 4.0}, {1.0, 5.0}}, u) * 4 * depth * (1 - depth);

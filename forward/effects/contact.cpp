@@ -5,17 +5,15 @@
 namespace genio {
 namespace {
 
-constexpr double reach = 4e-3;          // [m]
+constexpr double reach = 4e-3;  // [m]
 
 /// phi, phi' and phi'' of the depth d = -g > 0 with respect to d.
 struct Spring {
   double value, slope, curvature;
   explicit Spring(double d) {
     constexpr double s = Contact::soft_depth;
-    if (d < s)
-      value = d * d * d / (6 * s), slope = d * d / (2 * s), curvature = d / s;
-    else
-      value = d * d / 2 - s * d / 2 + s * s / 6, slope = d - s / 2, curvature = 1;
+    if (d < s) value = d * d * d / (6 * s), slope = d * d / (2 * s), curvature = d / s;
+    else value = d * d / 2 - s * d / 2 + s * s / 6, slope = d - s / 2, curvature = 1;
   }
 };
 
@@ -51,8 +49,8 @@ void Contact::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k
   add_step_stiffness(x, x, p, k);
 }
 
-void Contact::add_step_stiffness(const Positions& x, const Positions& previous,
-                                 EffectParameters p, Stiffness& k) const {
+void Contact::add_step_stiffness(const Positions& x, const Positions& previous, EffectParameters p,
+                                 Stiffness& k) const {
   for (const auto& c : nodes_) {
     if (gap(x, c) >= 0) continue;
     const auto s = field_->sample(node_position(x, c.node));

@@ -14,13 +14,13 @@ namespace genio {
 
 /// What an effect lets you vary.
 struct ParameterInfo {
-  std::string name;    ///< "GGP_L", "a10", "z"
-  std::string unit;    ///< "N", "Pa", "m/s^2"
-  double value = 0;    ///< value in the model as read
-  double lower = 0;    ///< bounds
+  std::string name;  ///< "GGP_L", "a10", "z"
+  std::string unit;  ///< "N", "Pa", "m/s^2"
+  double value = 0;  ///< value in the model as read
+  double lower = 0;  ///< bounds
   double upper = 0;
-  double absent = 0;   ///< value at which what it stands for vanishes
-  bool load = false;   ///< drives the shape away from rest; continuation brings it up from absent
+  double absent = 0;     ///< value at which what it stands for vanishes
+  bool load = false;     ///< drives the shape away from rest; continuation brings it up from absent
   bool penalty = false;  ///< enforces a constraint; a far solve starts with a softer one
 };
 

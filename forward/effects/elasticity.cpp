@@ -12,12 +12,12 @@ using lanes::Lane;
 using Lane3 = std::array<Lane, 3>;
 
 struct Elasticity::Shape {
-  Lane f[8][3][3];         // deformation gradient F at Gauss point q
-  Lane inverse_t[8][3][3]; // F^-T
-  Lane j[8];               // det F
-  Lane j23[8];             // J^(-2/3)
-  Lane invariant[8];       // I = J^(-2/3) tr(F^T F)
-  Lane volume;             // sum_q w_q J_q [m^3]
+  Lane f[8][3][3];          // deformation gradient F at Gauss point q
+  Lane inverse_t[8][3][3];  // F^-T
+  Lane j[8];                // det F
+  Lane j23[8];              // J^(-2/3)
+  Lane invariant[8];        // I = J^(-2/3) tr(F^T F)
+  Lane volume;              // sum_q w_q J_q [m^3]
 };
 
 Elasticity::Elasticity(const HexMesh& mesh, const TissueConstants& c)
@@ -158,8 +158,9 @@ Lane Elasticity::predicted_volume(const Batch& batch, const Positions& from, con
         Lane step;
         for (int l = 0; l < lanes::width; ++l)
           step[l] = to[3 * batch.node[a][l] + i] - from[3 * batch.node[a][l] + i];
-        volume += w * step * (s.inverse_t[q][i][0] * d[0] + s.inverse_t[q][i][1] * d[1] +
-                              s.inverse_t[q][i][2] * d[2]);
+        volume += w * step *
+                  (s.inverse_t[q][i][0] * d[0] + s.inverse_t[q][i][1] * d[1] +
+                   s.inverse_t[q][i][2] * d[2]);
       }
     }
   }
@@ -180,8 +181,8 @@ void Elasticity::add_batch_stiffness(const Batch& batch, const Shape& s, Lane pr
       const auto& d = batch.gradient[q][a];
       for (int i = 0; i < 3; ++i) {
         f[a][i] = s.f[q][i][0] * d[0] + s.f[q][i][1] * d[1] + s.f[q][i][2] * d[2];
-        g[a][i] = s.inverse_t[q][i][0] * d[0] + s.inverse_t[q][i][1] * d[1] +
-                  s.inverse_t[q][i][2] * d[2];
+        g[a][i] =
+            s.inverse_t[q][i][0] * d[0] + s.inverse_t[q][i][1] * d[1] + s.inverse_t[q][i][2] * d[2];
         dv[a][i] += w * s.j[q] * g[a][i];
       }
     }

@@ -42,7 +42,7 @@ class Elasticity final : public Effect {
 
  private:
   using Lane = lanes::Lane;
-  struct Batch {                                        // `width` elements side by side
+  struct Batch {                                                 // `width` elements side by side
     std::array<std::array<std::array<Lane, 3>, 8>, 8> gradient;  // dN_a/dX at Gauss point q [1/m]
     std::array<Lane, 8> weight;                                  // [m^3]
     Lane volume;                                                 // [m^3]

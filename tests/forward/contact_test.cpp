@@ -1,8 +1,9 @@
+#include "forward/effects/contact.hpp"
+
 #include <gtest/gtest.h>
 
 #include "forward/closest_point.hpp"
 #include "forward/distance_field.hpp"
-#include "forward/effects/contact.hpp"
 #include "forward/equilibrium.hpp"
 #include "tests/forward/small_model.hpp"
 
@@ -12,7 +13,8 @@ namespace {
 TriangleSurface octahedron(double r) {
   TriangleSurface s;
   s.vertices = {{r, 0, 0}, {-r, 0, 0}, {0, r, 0}, {0, -r, 0}, {0, 0, r}, {0, 0, -r}};
-  s.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  s.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                 {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   return s;
 }
 
@@ -25,7 +27,8 @@ TEST(SurfaceDistance, IsSignedAndExactAtFacesEdgesAndVertices) {
 }
 
 TEST(DistanceField, GradientAndHessianAreItsDerivatives) {
-  const DistanceField f(octahedron(0.01), Vec3::Constant(-0.02), Vec3::Constant(0.02), 2e-3, {Vec3(0.015, 0.015, 0.015)});
+  const DistanceField f(octahedron(0.01), Vec3::Constant(-0.02), Vec3::Constant(0.02), 2e-3,
+                        {Vec3(0.015, 0.015, 0.015)});
   const Vec3 p(0.0061, 0.0043, 0.0004);  // near an edge, where it bends
   const auto s = f.sample(p);
   for (int i = 0; i < 3; ++i) {

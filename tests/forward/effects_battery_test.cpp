@@ -33,7 +33,10 @@ void expect_v(const std::vector<double>& e, double bottom) {
 
 class EffectLaw : public testing::TestWithParam<std::string> {
  protected:
-  EffectLaw() : model(test::small_model()), effect(find_effect(model, GetParam())), p(default_parameters(model)) {
+  EffectLaw()
+      : model(test::small_model()),
+        effect(find_effect(model, GetParam())),
+        p(default_parameters(model)) {
     set_command(model, "GGP_L", 0.2, p);
     set_command(model, "GGP_R", 0.1, p);
     for (size_t e = 0; e < model.effects.size(); ++e)
@@ -60,9 +63,12 @@ TEST_P(EffectLaw, ForceIsMinusTheEnergysDerivative) {
   const double exact = -force_at(x).dot(direction);
   ASSERT_NE(exact, 0.0);
   expect_v(errors_over_steps([&](double h) {
-    const double quotient = (effect->energy(x + h * direction, values) - effect->energy(x - h * direction, values)) / (2 * h);
-    return std::abs(quotient - exact) / std::abs(exact);
-  }), 1e-7);
+             const double quotient = (effect->energy(x + h * direction, values) -
+                                      effect->energy(x - h * direction, values)) /
+                                     (2 * h);
+             return std::abs(quotient - exact) / std::abs(exact);
+           }),
+           1e-7);
 }
 
 TEST_P(EffectLaw, StiffnessIsMinusTheForcesDerivativeAndSymmetric) {
@@ -75,8 +81,11 @@ TEST_P(EffectLaw, StiffnessIsMinusTheForcesDerivativeAndSymmetric) {
     return;
   }
   expect_v(errors_over_steps([&](double h) {
-    return ((force_at(x - h * direction) - force_at(x + h * direction)) / (2 * h) - exact).norm() / scale;
-  }), 1e-6);
+             return ((force_at(x - h * direction) - force_at(x + h * direction)) / (2 * h) - exact)
+                        .norm() /
+                    scale;
+           }),
+           1e-6);
   const Vector other = test::shaken(model, 1.0, 23) - model.rest;
   EXPECT_NEAR(other.dot(exact), direction.dot(k.multiply(other)), 1e-12 * scale * other.norm());
 }
@@ -85,7 +94,8 @@ TEST_P(EffectLaw, StepStiffnessEqualsStiffnessWithoutAStep) {
   Stiffness exact(model.pattern), step(model.pattern);
   effect->add_stiffness(x, values, exact);
   effect->add_step_stiffness(x, x, values, step);
-  EXPECT_LE((exact.multiply(direction) - step.multiply(direction)).norm(), 1e-12 * exact.multiply(direction).norm());
+  EXPECT_LE((exact.multiply(direction) - step.multiply(direction)).norm(),
+            1e-12 * exact.multiply(direction).norm());
 }
 
 TEST_P(EffectLaw, ParameterDerivativesAreExact) {
@@ -114,8 +124,10 @@ TEST_P(EffectLaw, InternalForcesBalanceAndIgnoreRigidMotion) {
   EXPECT_LE(moment.norm(), 1e-12 * f.norm());
   const Mat3 r = Eigen::AngleAxisd(0.9, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   Positions y(x.size());
-  for (Eigen::Index a = 0; a < x.size() / 3; ++a) y.segment<3>(3 * a) = r * x.segment<3>(3 * a) + Vec3(0.1, -0.2, 0.3);
-  EXPECT_NEAR(effect->energy(y, values), effect->energy(x, values), 1e-12 * effect->energy(x, values));
+  for (Eigen::Index a = 0; a < x.size() / 3; ++a)
+    y.segment<3>(3 * a) = r * x.segment<3>(3 * a) + Vec3(0.1, -0.2, 0.3);
+  EXPECT_NEAR(effect->energy(y, values), effect->energy(x, values),
+              1e-12 * effect->energy(x, values));
   const Forces turned = force_at(y);
   for (Eigen::Index a = 0; a < x.size() / 3; ++a)
     EXPECT_LE((turned.segment<3>(3 * a) - r * f.segment<3>(3 * a)).norm(), 1e-10 * f.norm());
@@ -124,6 +136,35 @@ TEST_P(EffectLaw, InternalForcesBalanceAndIgnoreRigidMotion) {
 INSTANTIATE_TEST_SUITE_P(Battery, EffectLaw,
                          testing::Values("elasticity", "muscles", "gravity", "palate_contact"),
                          [](const auto& parameter) { return parameter.param; });
+
+TEST(Muscles, PullFadesSmoothlyWhereASegmentCollapses) {
+  const Model m = test::small_model();
+  const auto* muscles = find_effect(m, "muscles");
+  const auto& segment = m.muscles[0].segments.front();
+  ASSERT_GE(segment.end.node, 0);
+  std::vector<double> tension(m.muscles.size(), 0.0);
+  tension[0] = 1;
+  const Vec3 d = segment.end.position(m.rest) - segment.start.position(m.rest);
+  for (const double part : {0.0, 0.02, 0.1, 0.19999, 0.2, 0.20001, 0.3}) {
+    Positions x = m.rest;
+    x.segment<3>(3 * segment.end.node) = segment.start.position(m.rest) + part * d;
+    Vector direction = test::shaken(m, 1.0, 5) - m.rest;
+    const double h = 1e-7 / direction.norm();
+    const auto force_at = [&](double s) {
+      Forces f = Forces::Zero(x.size());
+      muscles->add_force(x + s * direction, tension, f);
+      return f;
+    };
+    const auto energy_at = [&](double s) { return muscles->energy(x + s * direction, tension); };
+    EXPECT_NEAR((energy_at(h) - energy_at(-h)) / (2 * h), -force_at(0).dot(direction),
+                1e-4 * direction.norm())
+        << part;
+    Stiffness k(m.pattern);
+    muscles->add_stiffness(x, tension, k);
+    const Vector exact = k.multiply(direction);
+    EXPECT_LT(((force_at(-h) - force_at(h)) / (2 * h) - exact).norm(), 1e-3 * exact.norm()) << part;
+  }
+}
 
 TEST(Elasticity, EnergyIsInfiniteForInvertedTissue) {
   const Model m = test::small_model();

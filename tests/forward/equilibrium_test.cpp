@@ -71,12 +71,15 @@ TEST(Sensitivity, IsTheDerivativeOfTheEquilibrium) {
   for (size_t k = 0; k < m.parameters.size(); ++k) all.push_back(int(k));
   const Matrix s = sensitivity(m, e, all, ws);
   for (int k : all) {
-    const double h = 1e-5 * std::max(std::abs(p[k]), m.parameters[k].info.unit == "N" ? 0.02 : 1e-2);
+    const double h =
+        1e-5 * std::max(std::abs(p[k]), m.parameters[k].info.unit == "N" ? 0.02 : 1e-2);
     Parameters up = p, down = p;
     up[k] += h, down[k] -= h;
-    const auto plus = solve_equilibrium(m, up, e.x, ws, tight), minus = solve_equilibrium(m, down, e.x, ws, tight);
+    const auto plus = solve_equilibrium(m, up, e.x, ws, tight),
+               minus = solve_equilibrium(m, down, e.x, ws, tight);
     const Vector quotient = (plus.x - minus.x) / (2 * h);
-    EXPECT_LE((quotient - s.col(k)).norm(), 2e-4 * std::max(s.col(k).norm(), 1e-12)) << m.parameters[k].name;
+    EXPECT_LE((quotient - s.col(k)).norm(), 2e-4 * std::max(s.col(k).norm(), 1e-12))
+        << m.parameters[k].name;
   }
 }
 

@@ -1,11 +1,13 @@
 // The generic tongue against the published figures of the reference tongue, 15 % each.
 
+#include "data/generator/generic_tongue.hpp"
+
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "data/generator/generic_tongue.hpp"
 #include "forward/closest_point.hpp"
+#include "forward/equilibrium.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {
@@ -33,7 +35,8 @@ TEST_F(GenericTongue, MeshIsFineAndWellShaped) {
 TEST_F(GenericTongue, IsSymmetricAboutTheMidsagittalPlane) {
   for (const Vec3& x : d.mesh.nodes) {
     double nearest = 1;
-    for (const Vec3& y : d.mesh.nodes) nearest = std::min(nearest, (Vec3(x[0], -x[1], x[2]) - y).norm());
+    for (const Vec3& y : d.mesh.nodes)
+      nearest = std::min(nearest, (Vec3(x[0], -x[1], x[2]) - y).norm());
     EXPECT_LT(nearest, 1e-8);
   }
 }
@@ -53,14 +56,17 @@ TEST_F(GenericTongue, HasThePublishedSize) {
   const SurfaceDistance palate(*d.palate);
   double gap = 1;
   for (int a : d.midsagittal)
-    if (d.mesh.nodes[a][0] > 0.065 && d.mesh.nodes[a][2] > 0.1) gap = std::min(gap, std::abs(palate(d.mesh.nodes[a])));
+    if (d.mesh.nodes[a][0] > 0.065 && d.mesh.nodes[a][2] > 0.1)
+      gap = std::min(gap, std::abs(palate(d.mesh.nodes[a])));
   expect_within(1e3 * gap, 8, "gap below the palate");
 }
 
 TEST_F(GenericTongue, MusclesHaveThePublishedLengthsAndForces) {
-  const std::map<std::string, std::pair<double, double>> published = {  // mm, N
-      {"GGP", {48, 37}}, {"GGM", {46, 12}}, {"GGA", {36, 18}}, {"HG", {39, 65}}, {"STY", {45, 24}},
-      {"SL", {95, 19}}, {"IL", {86, 9}}, {"TRANS", {14, 50}}, {"VERT", {16, 20}}, {"GH", {31, 17.5}}, {"MH", {24, 39}}};
+  const std::map<std::string, std::pair<double, double>> published = {
+      // mm, N
+      {"GGP", {48, 37}},  {"GGM", {46, 12}},  {"GGA", {36, 18}}, {"HG", {39, 65}},
+      {"STY", {45, 24}},  {"SL", {95, 19}},   {"IL", {86, 9}},   {"TRANS", {14, 50}},
+      {"VERT", {16, 20}}, {"GH", {31, 17.5}}, {"MH", {24, 39}}};
   std::map<std::string, double> force;
   for (const auto& m : d.muscles) {
     double length = 0;
@@ -86,6 +92,23 @@ TEST_F(GenericTongue, RestsOutsideTheBones) {
   const Model m = build_model(d, "generic");
   EXPECT_EQ(max_penetration(m, m.rest), 0);
   EXPECT_EQ(force(m, m.rest, default_parameters(m)).norm() < 1e-9, true);
+}
+
+/// Geniohyoid and others pull fibre segments together until nothing is left of them.
+TEST_F(GenericTongue, EveryMuscleAtItsMaximumHasAnEquilibrium) {
+  const Model m = build_model(d, "generic");
+  Workspace ws(m);
+  for (const char* name :
+       {"GGP", "GGM", "GGA", "HG", "STY", "SL", "IL", "TRANS", "VERT", "GH", "MH"}) {
+    Parameters p = default_parameters(m);
+    double most = 0;
+    for (const int k : command_parameters(m, name)) most += m.parameters[size_t(k)].info.upper;
+    set_command(m, name, most, p);
+    const auto e = solve_equilibrium(m, p, m.rest, ws);
+    EXPECT_TRUE(e) << name << ": " << e.message;
+    EXPECT_LT(e.factorizations, 400) << name;
+    EXPECT_LT(max_penetration(m, e.x), 1e-4) << name;
+  }
 }
 
 }  // namespace

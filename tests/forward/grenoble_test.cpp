@@ -77,10 +77,26 @@ TEST_F(Grenoble, MeetsTheIndependentSolution) {
   }
 }
 
+/// The tip folds up against the palate and the tangent turns indefinite many times on the way.
+TEST_F(Grenoble, CadaverHyoglossusInContactIsFound) {
+  const Model m = build_model(d, "grenoble");
+  Workspace ws(m);
+  Parameters p = default_parameters(m);
+  set_parameter(m, "elasticity.a10", 192, p);
+  set_parameter(m, "elasticity.a20", 90, p);
+  set_parameter(m, "elasticity.kappa", 192e3, p);
+  set_command(m, "HG", 2, p);
+  const auto e = solve_equilibrium(m, p, m.rest, ws);
+  ASSERT_TRUE(e) << e.message;
+  EXPECT_LT(e.factorizations, 1000);
+  EXPECT_LT(max_penetration(m, e.x), 1e-4);
+}
+
 TEST_F(Grenoble, EveryMuscleAloneAndAllTogetherHaveAnEquilibrium) {
   const Model m = build_model(d, "grenoble");
   Workspace ws(m);
-  for (const char* name : {"GGP", "GGM", "GGA", "HG", "STY", "SL", "IL", "TRANS", "VERT", "GH", "MH"}) {
+  for (const char* name :
+       {"GGP", "GGM", "GGA", "HG", "STY", "SL", "IL", "TRANS", "VERT", "GH", "MH"}) {
     Parameters p = default_parameters(m);
     set_command(m, name, 2, p);
     const auto e = solve_equilibrium(m, p, m.rest, ws);

@@ -1,8 +1,9 @@
+#include "forward/mesh.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
-#include "forward/mesh.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {
@@ -10,7 +11,8 @@ namespace {
 
 HexMesh cube(double side) {
   HexMesh m;
-  for (const auto& c : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(1, 1, 1), Vec3(0, 1, 1)})
+  for (const auto& c : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0, 0, 1),
+                        Vec3(1, 0, 1), Vec3(1, 1, 1), Vec3(0, 1, 1)})
     m.nodes.push_back(side * c);
   m.elements = {{0, 1, 2, 3, 4, 5, 6, 7}};
   return m;
@@ -33,7 +35,8 @@ TEST(Mesh, SurfaceNormalsPointOut) {
   double flux = 0;  // three times the volume, by the divergence theorem
   for (const Quad& q : boundary_quads(m)) {
     const Vec3 normal = (m.nodes[q[2]] - m.nodes[q[0]]).cross(m.nodes[q[3]] - m.nodes[q[1]]) / 2;
-    flux += normal.dot((m.nodes[q[0]] + m.nodes[q[1]] + m.nodes[q[2]] + m.nodes[q[3]]) / 4 - middle);
+    flux +=
+        normal.dot((m.nodes[q[0]] + m.nodes[q[1]] + m.nodes[q[2]] + m.nodes[q[3]]) / 4 - middle);
   }
   EXPECT_NEAR(flux / 3, mesh_volume(m, rest_positions(m)), 1e-2 * flux);
 }
@@ -53,7 +56,7 @@ TEST(Mesh, InvertedElementIsNamed) {
 }
 
 TEST(Mesh, WrongUnitsAreSuspected) {
-  EXPECT_THROW(check_mesh(cube(100), "m"), InputError);    // millimetres or centimetres as metres
+  EXPECT_THROW(check_mesh(cube(100), "m"), InputError);  // millimetres or centimetres as metres
   EXPECT_THROW(check_mesh(cube(1e-4), "m"), InputError);
   EXPECT_NO_THROW(check_mesh(cube(0.07), "m"));
 }

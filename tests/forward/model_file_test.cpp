@@ -1,10 +1,11 @@
+#include "forward/model_file.hpp"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "forward/model_file.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

@@ -16,7 +16,8 @@ ModelDescription small_block() {
     for (int j = 0; j <= ny; ++j)
       for (int i = 0; i <= nx; ++i) {
         d.mesh.nodes.emplace_back(5e-3 * i + jitter(), 5e-3 * j + jitter(), 5e-3 * k + jitter());
-        d.supports.push_back(k == 0 ? (i == 3 ? Support::horizontal : Support::fixed) : Support::free);
+        d.supports.push_back(k == 0 ? (i == 3 ? Support::horizontal : Support::fixed)
+                                    : Support::free);
       }
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
@@ -24,14 +25,26 @@ ModelDescription small_block() {
         d.mesh.elements.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
                                    node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
                                    node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
-  Muscle along{"GGP_L", 2, {{{node(0, 1, 2), {}}, {node(1, 1, 2), {}}, {node(2, 1, 1), {}}, {node(3, 1, 1), {}}}}, {}, {}};
-  Muscle up{"GGP_R", 2, {{{node(1, 0, 0), {}}, {node(1, 0, 1), {}}, {node(1, 1, 2), {}}}, {{-1, Vec3(0.03, 0.01, 0.03)}, {node(3, 2, 2), {}}}}, {}, {}};
-  for (int e = 0; e < int(d.mesh.elements.size()); ++e) along.elements.push_back(e), up.elements.push_back(e);
+  Muscle along{
+      "GGP_L",
+      2,
+      {{{node(0, 1, 2), {}}, {node(1, 1, 2), {}}, {node(2, 1, 1), {}}, {node(3, 1, 1), {}}}},
+      {},
+      {}};
+  Muscle up{"GGP_R",
+            2,
+            {{{node(1, 0, 0), {}}, {node(1, 0, 1), {}}, {node(1, 1, 2), {}}},
+             {{-1, Vec3(0.03, 0.01, 0.03)}, {node(3, 2, 2), {}}}},
+            {},
+            {}};
+  for (int e = 0; e < int(d.mesh.elements.size()); ++e)
+    along.elements.push_back(e), up.elements.push_back(e);
   d.muscles = {along, up};
   d.landmarks = {node(0, 1, 2), node(1, 1, 2), node(3, 1, 2)};
   d.midsagittal = {node(0, 1, 1), node(0, 1, 2), node(1, 1, 2), node(2, 1, 2), node(3, 1, 2)};
   TriangleSurface palate;  // a tilted plane just above
-  palate.vertices = {{-0.01, -0.01, 0.0108}, {0.03, -0.01, 0.0112}, {0.03, 0.02, 0.0114}, {-0.01, 0.02, 0.011}};
+  palate.vertices = {
+      {-0.01, -0.01, 0.0108}, {0.03, -0.01, 0.0112}, {0.03, 0.02, 0.0114}, {-0.01, 0.02, 0.011}};
   palate.triangles = {{0, 1, 2}, {0, 2, 3}};
   d.palate = palate;
   d.effects["elasticity"] = {{"a10", 192}, {"a20", 90}, {"kappa", 19200}};

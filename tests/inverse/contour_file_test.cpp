@@ -14,7 +14,9 @@ namespace {
 class ContourFiles : public testing::Test {
  protected:
   std::string write(const std::string& text) {
-    path = (std::filesystem::temp_directory_path() / ("genio_contour_" + std::to_string(::getpid()))).string();
+    path =
+        (std::filesystem::temp_directory_path() / ("genio_contour_" + std::to_string(::getpid())))
+            .string();
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
@@ -34,13 +36,16 @@ class ContourFiles : public testing::Test {
 std::string aaa_row(int knots, const std::string& end, int valid_from = 10, int valid_to = 30) {
   std::string row = "sp\t1.25\t29/11/2016 15:10:47\tDico\ta\t0\t0\t0\t0\t0\t0";
   for (int k = 0; k < knots; ++k)
-    row += k >= valid_from && k < valid_to ? "\t" + std::to_string(30 - 2 * k) + ".5\t" + std::to_string(k) : "\t*\t*";
+    row += k >= valid_from && k < valid_to
+               ? "\t" + std::to_string(30 - 2 * k) + ".5\t" + std::to_string(k)
+               : "\t*\t*";
   return row + end;
 }
 
 TEST_F(ContourFiles, CsvWithAllColumns) {
-  const auto f = read_contours(write("frame,point,x_mm,y_mm,z_mm,sigma_mm,kind,label,time_s\r\n"
-                                     "3,1,80,,110,0.4,curve,i,0.5\r\n3,2,60,0,100,,tip,,\r\n4,1,90,5,112,1,surface,,\r\n"));
+  const auto f = read_contours(
+      write("frame,point,x_mm,y_mm,z_mm,sigma_mm,kind,label,time_s\r\n"
+            "3,1,80,,110,0.4,curve,i,0.5\r\n3,2,60,0,100,,tip,,\r\n4,1,90,5,112,1,surface,,\r\n"));
   ASSERT_EQ(f.frames.size(), 2u);
   EXPECT_EQ(f.frames[0].number, 3);
   EXPECT_EQ(f.frames[0].label, "i");
@@ -52,10 +57,13 @@ TEST_F(ContourFiles, CsvWithAllColumns) {
 }
 
 TEST_F(ContourFiles, CsvErrorsNameLineAndField) {
-  EXPECT_NE(error("frame,point,x_mm,z_mm\n1,1,80,110\n1,2,nan,3\n").find(":3: field x_mm"), std::string::npos);
+  EXPECT_NE(error("frame,point,x_mm,z_mm\n1,1,80,110\n1,2,nan,3\n").find(":3: field x_mm"),
+            std::string::npos);
   EXPECT_NE(error("frame,point,x_mm\n1,1,80\n").find("'z_mm' is missing"), std::string::npos);
-  EXPECT_NE(error("frame,point,x_mm,z_cm\n1,1,80,1\n").find("did you mean z_mm"), std::string::npos);
-  EXPECT_NE(error("frame,point,x_mm,z_mm\n1,1,80\n").find(":2: 3 fields; the header has 4"), std::string::npos);
+  EXPECT_NE(error("frame,point,x_mm,z_cm\n1,1,80,1\n").find("did you mean z_mm"),
+            std::string::npos);
+  EXPECT_NE(error("frame,point,x_mm,z_mm\n1,1,80\n").find(":2: 3 fields; the header has 4"),
+            std::string::npos);
   EXPECT_NE(error("frame,point,x_mm,z_mm\n").find("no point"), std::string::npos);
   EXPECT_NE(error(""), "");
 }
@@ -97,7 +105,8 @@ TEST_F(ContourFiles, AaaErrorsNameLineAndKnot) {
 
 TEST_F(ContourFiles, WrongUnitsAreSuspected) {
   const Model m = read_model(test::generic_model());
-  const auto metres = read_contours(write("frame,point,x_mm,z_mm\n1,1,0.08,0.11\n1,2,0.09,0.112\n1,3,0.1,0.11\n"));
+  const auto metres =
+      read_contours(write("frame,point,x_mm,z_mm\n1,1,0.08,0.11\n1,2,0.09,0.112\n1,3,0.1,0.11\n"));
   EXPECT_THROW(make_target(m, metres.frames[0], std::nullopt, 5e-4), InputError);
   const auto huge = read_contours(write("frame,point,x_mm,z_mm\n1,1,80000,110000\n"));
   EXPECT_THROW(make_target(m, huge.frames[0], std::nullopt, 5e-4), InputError);

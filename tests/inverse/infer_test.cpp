@@ -1,6 +1,7 @@
+#include "inverse/infer.hpp"
+
 #include <gtest/gtest.h>
 
-#include "inverse/infer.hpp"
 #include "inverse/objective.hpp"
 #include "tests/forward/small_model.hpp"
 
@@ -14,9 +15,7 @@ class Infer : public testing::Test {
     for (const auto& [name, f] : forces) set_command(m, name, f, p);
     const auto e = solve_equilibrium(m, p, m.rest, ws);
     EXPECT_TRUE(e) << e.message;
-    Target t;
-    for (const Vec2& q : TongueLine(m).sample(e.x, 40)) t.curve.push_back({q, 5e-4});
-    return t;
+    return curve_target(m, e.x, 40, 5e-4);
   }
   const Model m = read_model(test::generic_model());
   Workspace ws{m};
@@ -46,7 +45,8 @@ TEST_F(Infer, GradientIsTheDerivativeOfTheObjective) {
     const double h = 1e-4;
     const double up = objective.value(z + h * Vector::Unit(z.size(), k))->value;
     const double down = objective.value(z - h * Vector::Unit(z.size(), k))->value;
-    EXPECT_NEAR((up - down) / (2 * h), gradient[k], 1e-4 * gradient.norm()) << objective.commands()[size_t(k)].name;
+    EXPECT_NEAR((up - down) / (2 * h), gradient[k], 1e-4 * gradient.norm())
+        << objective.commands()[size_t(k)].name;
   }
 }
 
@@ -70,8 +70,8 @@ TEST_F(Infer, HessianIsTheDerivativeOfTheGradient) {
 }
 
 TEST_F(Infer, ShapeBeyondAllMusclesIsNotExplained) {
-  Target t;
-  for (const Vec2& q : TongueLine(m).sample(m.rest, 30)) t.curve.push_back({q + Vec2(-0.012, -0.012), 3e-4});
+  Target t = curve_target(m, m.rest, 30, 3e-4);
+  for (auto& p : t.curve) p.position += Vec2(-0.012, -0.012);
   InferOptions options;
   options.deadline_s = 60;
   const auto a = infer(m, t, Prior{}, ws, options);

@@ -1,8 +1,8 @@
+#include "inverse/posterior.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "inverse/posterior.hpp"
 
 namespace genio {
 namespace {

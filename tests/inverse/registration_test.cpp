@@ -1,6 +1,7 @@
+#include "inverse/registration.hpp"
+
 #include <gtest/gtest.h>
 
-#include "inverse/registration.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {
@@ -13,7 +14,8 @@ TEST(Registration, BringsAMovedPalateBack) {
   const Similarity away{1.03, 0.2, Vec2(-0.08, -0.1)};
   std::vector<Vec2> trace;
   for (size_t i = 0; i < palate.size(); ++i)
-    if (palate[i][0] > 0.055 && palate[i][0] < 0.12 && palate[i][1] > 0.1) trace.push_back(away(palate[i]));
+    if (palate[i][0] > 0.055 && palate[i][0] < 0.12 && palate[i][1] > 0.1)
+      trace.push_back(away(palate[i]));
   std::vector<std::vector<Vec2>> contours(1);
   for (const Vec2& q : TongueLine(m).sample(m.rest, 30)) contours[0].push_back(away(q));
   const auto r = register_by_palate(m, trace, contours);

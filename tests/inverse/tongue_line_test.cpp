@@ -26,8 +26,8 @@ TEST(TongueLine, DistanceIsPositiveOutside) {
 /// All three kinds of target at once: analytic against central differences.
 TEST(Comparison, GradientIsTheDerivativeOfTheResiduals) {
   const Model m = read_model(test::generic_model());
-  Target t;
-  for (const Vec2& q : TongueLine(m).sample(m.rest, 20)) t.curve.push_back({q + Vec2(1e-3, 1.5e-3), 5e-4});
+  Target t = curve_target(m, m.rest, 20, 5e-4);
+  for (auto& p : t.curve) p.position += Vec2(1e-3, 1.5e-3);
   t.curve.push_back({Vec2(0.12, 0.055), 1e-3});  // beyond the end of the line
   t.flesh.push_back({m.landmarks.tip, Vec3(0.055, std::nan(""), 0.1), 1e-3, "tip"});
   t.surface.push_back({Vec3(0.095, 0.012, 0.118), 1e-3});
@@ -35,7 +35,8 @@ TEST(Comparison, GradientIsTheDerivativeOfTheResiduals) {
   const Residuals r = compare(m.rest);
   Vector step = test::shaken(m, 1.0, 5) - m.rest;
   for (double h : {1e-6}) {
-    const Vector quotient = (compare(m.rest + h * step).values - compare(m.rest - h * step).values) / (2 * h);
+    const Vector quotient =
+        (compare(m.rest + h * step).values - compare(m.rest - h * step).values) / (2 * h);
     for (Eigen::Index i = 0; i < quotient.size(); ++i) {
       double exact = 0;
       for (const auto& [node, g] : r.gradient[size_t(i)]) exact += g.dot(step.segment<3>(3 * node));

@@ -1,5 +1,7 @@
 // The service over tcpq on 127.0.0.1, through a hub on a free port.
 
+#include "server/service.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 
 #include "server/client.hpp"
 #include "server/hub.hpp"
-#include "server/service.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {
@@ -66,12 +67,16 @@ TEST_F(Service, BadRequestsAreRefusedAndServingGoesOn) {
   nan.x_mm[0] = std::nan("");
   auto empty = one_point();
   empty.point_count = 0;
-  empty.x_mm.clear(), empty.y_mm.clear(), empty.z_mm.clear(), empty.sigma_mm.clear(), empty.kind.clear();
+  empty.x_mm.clear(), empty.y_mm.clear(), empty.z_mm.clear(), empty.sigma_mm.clear(),
+      empty.kind.clear();
   auto unknown = one_point();
   unknown.kind[0] = "tipp";
   auto far = one_point();
   far.x_mm[0] = 1e5;
-  for (const auto& [request, word] : {std::pair{nan, "point 1"}, {empty, "no points"}, {unknown, "did you mean tip"}, {far, "Wrong units"}}) {
+  for (const auto& [request, word] : {std::pair{nan, "point 1"},
+                                      {empty, "no points"},
+                                      {unknown, "did you mean tip"},
+                                      {far, "Wrong units"}}) {
     const auto reply = client->request(request, 30);
     ASSERT_TRUE(reply);
     EXPECT_EQ(reply->status, "failed");
@@ -85,7 +90,8 @@ TEST_F(Service, BadRequestsAreRefusedAndServingGoesOn) {
 TEST_F(Service, GarbageOnTheRequestChannelDoesNoHarm) {
   Link link(options.url);
   bool told = false;
-  link.subscribe("GENIO_REPLY.undecodable", [&](const std::string&, const void*, size_t) { told = true; });
+  link.subscribe("GENIO_REPLY.undecodable",
+                 [&](const std::string&, const void*, size_t) { told = true; });
   link.wait(100);
   link.publish("GENIO_REQUEST", {1, 2, 3});
   link.publish("GENIO_REQUEST", std::vector<uint8_t>(100000, 0xff));

@@ -1,8 +1,8 @@
+#include "server/wire.hpp"
+
 #include <gtest/gtest.h>
 
 #include <random>
-
-#include "server/wire.hpp"
 
 namespace genio {
 namespace {
