@@ -89,7 +89,7 @@ double chi_square_tail(double chi2, double dof) {
 void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
                          const Comparison& comparison, Answer& answer) {
   const auto& commands = objective.commands();
-  const Matrix h = objective.hessian(optimum);
+  const Matrix rough = objective.gauss_newton(optimum);
   const Vector& z = optimum.activations;
   const Eigen::Index n = z.size();
   std::vector<Eigen::Index> free;
@@ -99,9 +99,11 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
     upper[size_t(i)] = z[i] > 1 - bound_margin && optimum.gradient[i] < 0;
     if (!lower[size_t(i)] && !upper[size_t(i)]) free.push_back(i);
   }
-  const Matrix h_free = h(free, free);
-  const Eigen::LDLT<Matrix> factor(h_free);
-  const Matrix covariance = factor.solve(Matrix::Identity(h_free.rows(), h_free.cols()));
+  const Eigen::LLT<Matrix> rough_factor(Matrix(rough(free, free)));
+  Eigen::LLT<Matrix> factor(Matrix(objective.hessian(optimum)(free, free)));
+  if (factor.info() != Eigen::Success) factor = rough_factor;
+  const Eigen::Index count = Eigen::Index(free.size());
+  const Matrix covariance = factor.solve(Matrix::Identity(count, count));
 
   answer.commands.clear();
   std::vector<std::string> at_maximum, at_zero;
@@ -110,9 +112,10 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
     const bool low = lower[size_t(i)], high = upper[size_t(i)];
     Marginal m{z[i], 0, 0};
     if (low || high) {
-      const Vector cross = h(free, i);
+      // Gauss-Newton: across an active bound the exact Hessian may be indefinite.
+      const Vector cross = rough(free, i);
       m.slope = optimum.gradient[i];
-      m.curvature = h(i, i) - (free.empty() ? 0.0 : cross.dot(factor.solve(cross)));
+      m.curvature = rough(i, i) - (free.empty() ? 0.0 : cross.dot(rough_factor.solve(cross)));
       (high ? at_maximum : at_zero).push_back(command.name);
     } else {
       m.curvature = 1 / covariance(f, f);
@@ -140,10 +143,8 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
     answer.message = fmt::format("misfit within noise (p = {:.2g})", tail);
     return;
   }
-  // What the misfit would lose if the bounds gave way. Gauss-Newton, as the exact Hessian may be
-  // indefinite across active bounds.
-  const double gain =
-      optimum.gradient.dot(objective.gauss_newton(optimum).llt().solve(optimum.gradient));
+  // What the misfit would lose if the bounds gave way.
+  const double gain = optimum.gradient.dot(rough.llt().solve(optimum.gradient));
   const bool bounded = gain >= 0.5 * (chi2 - dof);
   answer.verdict = bounded ? Verdict::unreachable : Verdict::mismatch;
   answer.message = fmt::format(

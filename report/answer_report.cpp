@@ -54,7 +54,9 @@ std::string to_table(const AnswerView& v) {
     out += fmt::format("fit      RMS {:.2f} mm, max {:.2f} mm, chi2/dof {:.2f}\n", v.rms_mm,
                        v.max_mm, v.chi2_per_dof);
   for (const auto& group : v.unidentified)
-    out += fmt::format("unseen   the data cannot tell apart: {}\n", fmt::join(group, ", "));
+    out += fmt::format("unseen   the data {}: {}\n",
+                       group.size() > 1 ? "cannot tell apart" : "say little about",
+                       fmt::join(group, ", "));
   out += fmt::format("status   {}\nverdict  {}{}{}\n", v.status, v.verdict,
                      v.message.empty() ? "" : ": ", v.message);
   return out;
