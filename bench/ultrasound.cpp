@@ -27,7 +27,7 @@ std::vector<const ContourFrame*> middle_frames(const ContourFile& file) {
 Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& transform,
                   double noise, Workspace& ws) {
   Json j = {{"frame", frame.number}, {"label", frame.label}};
-  const Target target = make_target(m, frame, transform, noise);
+  const Target target = make_target(m, registered(m, frame, transform), noise);
   if (target.empty()) {
     j["status"] = "failed", j["message"] = frame.note;
     return j;

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/measured.hpp"
 #include "forward/model_file.hpp"
-#include "inverse/contour_file.hpp"
 #include "report/answer_report.hpp"
 #include "server/client.hpp"
 
@@ -13,12 +13,13 @@ namespace genio::cli {
 namespace {
 
 struct RequestOptions {
-  std::string url, target, model = default_model(), out, cancel_id;
-  double timeout_s = 120, deadline_s = 0, noise_mm = 0;
+  MeasuredOptions measured;
+  std::string url, model = default_model(), out, cancel_id;
+  double timeout_s = 120, deadline_s = 0;
   bool json = false;
 };
 
-shape_request_t request_of(const ContourFrame& frame, const RequestOptions& o) {
+shape_request_t request_of(const ContourFrame& frame, double noise, double deadline_s) {
   shape_request_t r{};
   for (const auto& p : frame.points) {
     r.x_mm.push_back(1e3 * p.position[0]);
@@ -28,15 +29,15 @@ shape_request_t request_of(const ContourFrame& frame, const RequestOptions& o) {
     r.kind.push_back(p.kind);
   }
   r.point_count = int(frame.points.size());
-  r.default_sigma_mm = o.noise_mm;
-  r.deadline_s = o.deadline_s;
+  r.default_sigma_mm = 1e3 * noise;
+  r.deadline_s = deadline_s;
   r.bilateral = -1;
   return r;
 }
 
 AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
   AnswerView v;
-  v.title = fmt::format("frame {}{}{}", frame.number, frame.label.empty() ? "" : ": ", frame.label);
+  v.title = frame_title(frame);
   v.status = r.status, v.message = r.message, v.verdict = r.verdict;
   for (size_t i = 0; i < r.muscle.size(); ++i)
     v.commands.push_back({r.muscle[i], r.force_N[i], r.max_force_N[i], r.sd_N[i], r.low_N[i],
@@ -57,14 +58,16 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
 }
 
 int run_request(const RequestOptions& o) {
-  if (o.target.empty()) throw InputError("--target: a contour file is needed");
-  const ContourFile file = read_contours(o.target, "csv");
+  const Model model = read_model(o.model);
+  const Measured measured = read_measured(model, o.measured);
   Client client(choose_url(o.url));
   bool all = true;
-  for (const auto& frame : file.frames) {
-    const auto reply = client.request(request_of(frame, o), o.timeout_s, [&](const progress_t& p) {
-      if (!o.json) fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
-    });
+  for (const auto& frame : measured.frames) {
+    const auto reply = client.request(
+        request_of(frame, measured.noise, o.deadline_s), o.timeout_s, [&](const progress_t& p) {
+          if (!o.json)
+            fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
+        });
     if (!o.json) fmt::print(stderr, "\n");
     if (!reply)
       throw std::runtime_error(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
@@ -72,10 +75,9 @@ int run_request(const RequestOptions& o) {
     const AnswerView view = view_of(*reply, frame);
     all &= view.status == "converged";
     if (o.json) fmt::print("{}\n", to_json(view, frame.number).dump());
-    else fmt::print("{}", to_table(view));
+    else fmt::print("{}\n{}\n", view.title, to_table(view));
     if (!o.out.empty())
-      write_report(read_model(o.model), view, frame.number, o.out,
-                   fmt::format("frame{:05d}", frame.number));
+      write_report(model, view, frame.number, o.out, fmt::format("frame{:05d}", frame.number));
   }
   return all ? done : no_answer;
 }
@@ -99,11 +101,10 @@ int run_status(const RequestOptions& o) {
 Runner add_request(CLI::App& app) {
   auto o = std::make_shared<RequestOptions>();
   app.add_option("--lcm", o->url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
-  app.add_option("--target", o->target, "CSV contour in the model's frame");
+  add_measured_options(app, o->measured);
   app.add_option("--timeout-s", o->timeout_s, "How long to wait for each reply");
   app.add_option("--deadline-s", o->deadline_s, "Time the server may compute");
-  app.add_option("--noise-mm", o->noise_mm, "Measurement noise (default 0.5)");
-  app.add_option("--model", o->model, "Model whose anatomy the picture shows");
+  app.add_option("--model", o->model, "Model to register with and to show in the picture");
   app.add_flag("--json", o->json, "One JSON object a frame on standard output");
   app.add_option("--out", o->out, "Folder for pictures and numbers");
   auto* status = app.add_subcommand("status", "What the server is doing");

@@ -11,28 +11,13 @@
 namespace genio {
 namespace {
 
-constexpr double bone_tolerance = 0;  // [m]
-constexpr double too_far = 0.12;      // [m] from the middle of the tongue
+constexpr double too_far = 0.12;  // [m] from the middle of the tongue
 
-/// Leaves out the ends of a contour that run through jaw or palate: where the tongue's edge fades,
-/// trackers follow something else. Only whole ends, never points from the middle.
-void trim_ends(const Model& model, Target& target) {
-  const auto inside_bone = [&](const CurvePoint& p) {
-    for (const auto& e : model.effects)
-      if (const auto* contact = dynamic_cast<const Contact*>(e.get()))
-        if (contact->distance(Vec3(p.position[0], 0, p.position[1])) < -bone_tolerance) return true;
-    return false;
-  };
-  auto& curve = target.curve;
-  const auto size = curve.size();
-  // The innermost bad point of each outer third decides: what lies beyond it is no better.
-  size_t first = 0, last = size;
-  for (size_t i = 0; i < size / 3; ++i) {
-    if (inside_bone(curve[i])) first = i + 1;
-    if (inside_bone(curve[size - 1 - i])) last = size - 1 - i;
-  }
-  curve = std::vector<CurvePoint>(curve.begin() + long(first), curve.begin() + long(last));
-  target.trimmed = int(size - curve.size());
+bool inside_bone(const Model& model, const Vec3& p) {
+  for (const auto& e : model.effects)
+    if (const auto* contact = dynamic_cast<const Contact*>(e.get()))
+      if (contact->distance(Vec3(p[0], 0, p[2])) < 0) return true;
+  return false;
 }
 
 int flesh_node(const Model& model, const std::string& name) {
@@ -59,18 +44,34 @@ int flesh_node(const Model& model, const std::string& name) {
 
 }  // namespace
 
-Target make_target(const Model& model, const ContourFrame& frame,
-                   const std::optional<Similarity>& transform, double noise) {
+ContourFrame registered(const Model& model, const ContourFrame& frame,
+                        const Similarity& transform) {
+  ContourFrame result = frame;
+  auto& points = result.points;
+  for (ContourPoint& p : points) {
+    const Vec2 moved = transform(Vec2(p.position[0], p.position[2]));
+    p.position[0] = moved[0], p.position[2] = moved[1];
+  }
+  // The innermost bad point of each outer third decides: what lies beyond it is no better.
+  const size_t size = points.size();
+  size_t first = 0, last = size;
+  for (size_t i = 0; i < size / 3; ++i) {
+    if (inside_bone(model, points[i].position)) first = i + 1;
+    if (inside_bone(model, points[size - 1 - i].position)) last = size - 1 - i;
+  }
+  points = std::vector<ContourPoint>(points.begin() + long(first), points.begin() + long(last));
+  if (points.size() < size)
+    result.note = fmt::format("{} end points inside bone left out", size - points.size());
+  return result;
+}
+
+Target make_target(const Model& model, const ContourFrame& frame, double noise) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& x : model.mesh.nodes) middle += x / double(model.mesh.nodes.size());
   Target target;
   for (size_t i = 0; i < frame.points.size(); ++i) {
     const ContourPoint& p = frame.points[i];
-    Vec3 q = p.position;
-    if (transform) {
-      const Vec2 moved = (*transform)(Vec2(q[0], q[2]));
-      q = Vec3(moved[0], q[1], moved[1]);
-    }
+    const Vec3& q = p.position;
     const double sigma = p.sigma > 0 ? p.sigma : noise;
     const Vec3 flat(q[0], std::isnan(q[1]) ? 0.0 : q[1], q[2]);
     if (!((flat - middle).norm() < too_far))
@@ -82,7 +83,6 @@ Target make_target(const Model& model, const ContourFrame& frame,
     else if (p.kind == "surface") target.surface.push_back({q, sigma});
     else target.flesh.push_back({flesh_node(model, p.kind), q, sigma, p.kind});
   }
-  if (transform) trim_ends(model, target);
   if (frame.points.size() > 2) {
     Vec3 low = Vec3::Constant(1e9), high = -low;
     for (const auto& p : frame.points) {

@@ -1,18 +1,20 @@
 #pragma once
-#include <optional>
-
 #include "inverse/contour_file.hpp"
 #include "inverse/registration.hpp"
 #include "inverse/target.hpp"
 
 namespace genio {
 
-/// Target of one frame: registered when `transform` is given, points without a noise of their own
-/// get `noise` [m], flesh points are looked up in the model ("tip", "blade", "dorsum", "root",
-/// "node:919"). Points farther than 80 mm from the tongue's middle mean wrong units.
+/// The frame in the model's frame. Leaves out ends of the contour that run through jaw or palate:
+/// where the tongue's edge fades, trackers follow something else. Only whole ends, never points
+/// from the middle; says so in the frame's note.
+ContourFrame registered(const Model& model, const ContourFrame& frame, const Similarity& transform);
+
+/// Target of one frame, which is in the model's frame: points without a noise of their own get
+/// `noise` [m], flesh points are looked up in the model ("tip", "blade", "dorsum", "root",
+/// "node:919"). Points farther than 120 mm from the tongue's middle mean wrong units.
 /// Throws InputError naming the point.
-Target make_target(const Model& model, const ContourFrame& frame,
-                   const std::optional<Similarity>& transform, double noise);
+Target make_target(const Model& model, const ContourFrame& frame, double noise);
 
 /// The curve points of all frames, (x, z) [m], in the file's frame.
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);

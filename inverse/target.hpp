@@ -33,7 +33,6 @@ struct Target {
   std::vector<CurvePoint> curve;
   std::vector<FleshPoint> flesh;
   std::vector<SurfacePoint> surface;
-  int trimmed = 0;  ///< end points of the contour left out, as they lie inside bone
   bool empty() const { return curve.empty() && flesh.empty() && surface.empty(); }
   /// True where nothing was measured off the midsagittal plane: left and right cannot be told
   /// apart.

@@ -77,7 +77,7 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
       throw InputError("bilateral must be -1, 0 or 1");
     const double noise = request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm
                                                       : default_noise(ContourFormat::csv);
-    const Target target = make_target(model, frame_of(request), std::nullopt, noise);
+    const Target target = make_target(model, frame_of(request), noise);
     InferOptions options;
     options.deadline_s = request.deadline_s;
     if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;

@@ -107,16 +107,16 @@ TEST_F(ContourFiles, WrongUnitsAreSuspected) {
   const Model m = read_model(test::generic_model());
   const auto metres =
       read_contours(write("frame,point,x_mm,z_mm\n1,1,0.08,0.11\n1,2,0.09,0.112\n1,3,0.1,0.11\n"));
-  EXPECT_THROW(make_target(m, metres.frames[0], std::nullopt, 5e-4), InputError);
+  EXPECT_THROW(make_target(m, metres.frames[0], 5e-4), InputError);
   const auto huge = read_contours(write("frame,point,x_mm,z_mm\n1,1,80000,110000\n"));
-  EXPECT_THROW(make_target(m, huge.frames[0], std::nullopt, 5e-4), InputError);
+  EXPECT_THROW(make_target(m, huge.frames[0], 5e-4), InputError);
 }
 
 TEST_F(ContourFiles, UnknownFleshPointSuggestsTheNearest) {
   const Model m = read_model(test::generic_model());
   const auto f = read_contours(write("frame,point,x_mm,z_mm,kind\n1,1,60,100,tipp\n"));
   try {
-    make_target(m, f.frames[0], std::nullopt, 5e-4);
+    make_target(m, f.frames[0], 5e-4);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("did you mean tip"), std::string::npos);

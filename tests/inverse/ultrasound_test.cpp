@@ -23,7 +23,7 @@ TEST(Ultrasound, FramesGetAnAnswerOrAStatedReason) {
   EXPECT_NEAR(r.transform.scale, 1, 0.25);  // another speaker than the model
   int answered = 0;
   for (size_t i : {size_t(20), size_t(500), size_t(900)}) {
-    const Target t = make_target(m, file.frames[i], r.transform, 1.5e-3);
+    const Target t = make_target(m, registered(m, file.frames[i], r.transform), 1.5e-3);
     if (t.empty()) {
       EXPECT_FALSE(file.frames[i].note.empty());
       continue;
