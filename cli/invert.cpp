@@ -23,12 +23,23 @@ void print(const AnswerView& view, int frame, bool json) {
   std::fflush(stdout);
 }
 
+/// All of them before the first is worked on: a bad point should not end hours of work.
+std::vector<Target> all_targets(const Model& model, const Measured& measured,
+                                const std::string& file) {
+  std::vector<Target> targets;
+  try {
+    for (const ContourFrame& frame : measured.frames)
+      targets.push_back(make_target(model, frame, measured.noise));
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", file, e.what()));
+  }
+  return targets;
+}
+
 int run(const InvertOptions& o) {
   const Model model = read_model(o.model);
   const Measured measured = read_measured(model, o.measured);
-  std::vector<Target> targets;  // all of them first: a bad point should not end hours of work
-  for (const ContourFrame& frame : measured.frames)
-    targets.push_back(make_target(model, frame, measured.noise));
+  const auto targets = all_targets(model, measured, o.measured.target);
   Workspace ws(model);
   InferOptions options;
   options.deadline_s = o.deadline_s;
