@@ -13,6 +13,9 @@ using Json = nlohmann::json;
 /// One line a step for people who wait; may be empty.
 using Progress = std::function<void(const std::string&)>;
 
+/// Static solves of the block in units of one factorisation.
+Json forward(const Progress& progress);
+
 /// Known forces of three muscles found again from their noiseless contour, cold and warm.
 Json recovery(const Model& model);
 
