@@ -12,6 +12,7 @@ namespace {
 
 constexpr int stage_tries = 5;           // each 0.4 times as long as the one before
 constexpr double shortest_stage = 0.02;  // of the unbalanced force; below it springs do better
+constexpr double longest_stage = 0.3;    // velocity gradient of its first step
 constexpr double far_step = 2e-3;        // [m]
 
 /// Newton iterations from result.x at result.parameters.
@@ -40,18 +41,19 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
     }
     const double accuracy = std::clamp(0.3 * result.residual, 1e-5, 0.05);
     newton.set_springs(springs);
-    newton.assemble(x, x);
+    newton.assemble(x);
     Vector d = newton.direction(r, accuracy);
     ++result.newton_iterations;
     Positions y;
     bool advanced = false;
     if (springs == 0) {
-      t = std::min(t, step_limit(model, x, model.dofs.expand(d)));
+      const Vector along = model.dofs.expand(d);
+      t = std::min({t, step_limit(model, x, along), longest_stage / ws.curved.size(x, along)});
       for (int tries = 0; tries < stage_tries && t > shortest_stage && newton.shift() == 0;
            ++tries, t *= 0.4) {
         advanced = newton.stage(x, r, d, t, t == 1 ? 1e-6 : 1e-3, y, result.newton_iterations);
         if (advanced) break;
-        if (!ws.cholesky.valid()) newton.assemble(x, x), d = newton.direction(r, accuracy);
+        if (!ws.cholesky.valid()) newton.assemble(x), d = newton.direction(r, accuracy);
       }
       if (advanced) t = std::min(1.0, 3 * t);
       else springs = std::max(1e-3, 2 * newton.shift()), t = 1;
@@ -82,7 +84,7 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
 /// Length of the longest nodal displacement of the Newton step from x [m].
 double step_length(const Model& model, const Parameters& p, const Positions& x, Workspace& ws) {
   Newton newton(model, p, ws);
-  newton.assemble(x, x);
+  newton.assemble(x);
   const Vector d = model.dofs.expand(newton.direction(newton.residual(x), 0.1));
   return d.reshaped(3, d.size() / 3).colwise().norm().maxCoeff();
 }
@@ -139,7 +141,10 @@ void continuation(const Model& model, const Parameters& p, Workspace& ws,
 }  // namespace
 
 Workspace::Workspace(const Model& model)
-    : stiffness(model.pattern), reduced(model.pattern, model.dofs), cholesky(reduced) {}
+    : stiffness(model.pattern),
+      reduced(model.pattern, model.dofs),
+      cholesky(reduced),
+      curved(model.mesh, model.supports) {}
 
 Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Positions& start,
                               Workspace& ws, const SolveOptions& options) {
@@ -166,7 +171,7 @@ Equilibrium solve_small_deformation(const Model& model, const Parameters& p, Wor
   Parameters unloaded = p;
   for (size_t k = 0; k < model.parameters.size(); ++k)
     if (model.parameters[k].info.load) unloaded[k] = model.parameters[k].info.absent;
-  Newton(model, unloaded, ws).assemble(model.rest, model.rest);
+  Newton(model, unloaded, ws).assemble(model.rest);
   if (!ws.cholesky.factorize(ws.reduced)) {
     result.message = "the stiffness of the rest shape is not positive definite";
     return result;

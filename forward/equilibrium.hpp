@@ -4,6 +4,7 @@
 #include <string>
 
 #include "forward/cholesky.hpp"
+#include "forward/curved_step.hpp"
 #include "forward/model.hpp"
 
 namespace genio {
@@ -16,6 +17,7 @@ struct Workspace {
   Stiffness stiffness;
   ReducedStiffness reduced;
   Cholesky cholesky;
+  CurvedStep curved;
 };
 
 struct SolveOptions {

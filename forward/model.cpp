@@ -115,10 +115,10 @@ void stiffness(const Model& model, const Positions& x, const Parameters& p, Stif
 }
 
 void step_stiffness(const Model& model, const Positions& x, const Positions& previous,
-                    const Parameters& p, Stiffness& k) {
+                    const Vector& step, const Parameters& p, Stiffness& k) {
   k.set_zero();
   for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_step_stiffness(x, previous, effect_parameters(model, p, int(e)), k);
+    model.effects[e]->add_step_stiffness(x, previous, step, effect_parameters(model, p, int(e)), k);
 }
 
 double step_limit(const Model& model, const Positions& x, const Positions& along) {

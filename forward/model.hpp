@@ -86,7 +86,7 @@ Forces force(const Model& model, const Positions& x, const Parameters& p);
 void stiffness(const Model& model, const Positions& x, const Parameters& p, Stiffness& k);
 /// Total stiffness for a Newton step, see Effect::add_step_stiffness.
 void step_stiffness(const Model& model, const Positions& x, const Positions& previous,
-                    const Parameters& p, Stiffness& k);
+                    const Vector& step, const Parameters& p, Stiffness& k);
 /// Smallest of the effects' step limits.
 double step_limit(const Model& model, const Positions& x, const Positions& along);
 /// dF/dp_k as nodal forces, for each of the given parameters: 3 n x count [N per unit].

@@ -40,12 +40,13 @@ class Newton {
     return std::max(std::sqrt(sum), force_floor);
   }
 
-  /// The tangent for a step from x, itself reached by a step from `previous`.
-  void assemble(const Positions& x, const Positions& previous) {
-    step_stiffness(model_, x, previous, p_, ws_.stiffness);
+  /// The tangent for a step from x, itself reached from `previous` by following the linear `step`.
+  void assemble(const Positions& x, const Positions& previous, const Vector& step) {
+    step_stiffness(model_, x, previous, step, p_, ws_.stiffness);
     ws_.reduced.assign(ws_.stiffness);
     if (mean_ == 0) mean_ = ws_.reduced.trace() / double(model_.dofs.unknowns());
   }
+  void assemble(const Positions& x) { assemble(x, x, Vector::Zero(x.size())); }
 
   /// Springs from every unknown to where the step began, as a part of K's mean diagonal; 0: none.
   void set_springs(double part) { spring_ = part; }
@@ -75,29 +76,31 @@ class Newton {
              Positions& y, int& iterations) {
     const Vector held = (1 - t) * r;  // a dead load that keeps this much of the force unbalanced
     const double start = r.dot(d);
-    Vector u = t * d;
-    State at = state(x, u, held);
-    y = x + model_.dofs.expand(u);
     Positions y_before = x;
+    Vector along = t * model_.dofs.expand(d);
+    y = ws_.curved(x, along);
+    State at = state(x, y, held);
     for (int i = 0; i < stage_iterations; ++i) {
       if (!std::isfinite(at.energy)) return false;
       if (at.merit <= accuracy * start) return true;
       if (spent()) return false;
-      assemble(y, y_before);
+      assemble(y, y_before, along);
       ++iterations;
-      Vector c = direction(at.r, 0.03);
+      const Vector c = direction(at.r, 0.03);
       at.merit = at.r.dot(ws_.cholesky.solve(at.r));  // the factor may be a new one
-      c *= step_limit(model_, y, model_.dofs.expand(c));
+      along = model_.dofs.expand(c);
+      along *= step_limit(model_, y, along);
       State next;
-      for (int halvings = 0;; ++halvings, c *= 0.3) {
-        next = state(x, u + c, held);
+      Positions z;
+      for (int halvings = 0;; ++halvings, along *= 0.3) {
+        z = ws_.curved(y, along);
+        next = state(x, z, held);
         // Merit settles the volume, energy everything else: either may lead.
         if (next.merit < at.merit || next.energy < at.energy) break;
         if (halvings == 4) return false;
       }
-      u += c;
       y_before = y;
-      y = x + model_.dofs.expand(u);
+      y = z;
       at = next;
     }
     return at.merit <= accuracy * start;
@@ -122,10 +125,10 @@ class Newton {
     double merit;   // its squared energy norm, by the last factor
     double energy;  // potential with the held load and the springs
   };
-  State state(const Positions& x, const Vector& u, const Vector& held) const {
-    const Positions y = x + model_.dofs.expand(u);
+  State state(const Positions& x, const Positions& y, const Vector& held) const {
     State s{{}, std::numeric_limits<double>::infinity(), potential(y)};
     if (!std::isfinite(s.energy)) return s;
+    const Vector u = model_.dofs.pick(y - x);
     s.energy += held.dot(u) + 0.5 * spring_ * mean_ * u.squaredNorm();
     s.r = residual(y) - held - spring_ * mean_ * u;
     s.merit = s.r.dot(ws_.cholesky.solve(s.r));

@@ -21,6 +21,13 @@ Vector DofMap::expand(const Vector& unknowns) const {
   return nodal;
 }
 
+Vector DofMap::pick(const Vector& nodal) const {
+  Vector unknowns = Vector::Zero(unknowns_);
+  for (size_t i = 0; i < index_.size(); ++i)
+    if (index_[i] >= 0) unknowns[index_[i]] = nodal[Eigen::Index(i)];
+  return unknowns;
+}
+
 Vector DofMap::reduce(const Vector& nodal) const {
   Vector sum = Vector::Zero(unknowns_);
   for (size_t i = 0; i < index_.size(); ++i)

@@ -24,6 +24,8 @@ class DofMap {
   int unknown(int i) const { return index_[i]; }
   /// Displacements of all nodes from the unknowns.
   Vector expand(const Vector& unknowns) const;
+  /// Unknowns of nodal displacements that respect the supports (expand's inverse).
+  Vector pick(const Vector& nodal) const;
   /// Sum of nodal forces over each unknown (the transpose of expand).
   Vector reduce(const Vector& nodal) const;
 

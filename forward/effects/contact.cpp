@@ -46,22 +46,22 @@ void Contact::add_force(const Positions& x, EffectParameters p, Forces& f) const
 }
 
 void Contact::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const {
-  add_step_stiffness(x, x, p, k);
+  add_step_stiffness(x, x, Vector::Zero(x.size()), p, k);
 }
 
-void Contact::add_step_stiffness(const Positions& x, const Positions& previous, EffectParameters p,
-                                 Stiffness& k) const {
+void Contact::add_step_stiffness(const Positions& x, const Positions& previous, const Vector& step,
+                                 EffectParameters p, Stiffness& k) const {
   for (const auto& c : nodes_) {
     if (gap(x, c) >= 0) continue;
     const auto s = field_->sample(node_position(x, c.node));
     const Spring spring(c.clearance - s.value);
     const auto before = field_->sample(node_position(previous, c.node));
-    const Vec3 step = node_position(x, c.node) - node_position(previous, c.node);
     const double depth = c.clearance - before.value;
     double slope = 0;
     if (depth > 0) {
       const Spring was(depth);
-      slope = std::max(0.0, was.slope - was.curvature * before.gradient.dot(step));
+      slope = std::max(
+          0.0, was.slope - was.curvature * before.gradient.dot(node_position(step, c.node)));
     }
     k.add(c.node, c.node,
           p[0] * c.area *

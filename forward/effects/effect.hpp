@@ -41,11 +41,12 @@ class Effect {
   virtual void add_force(const Positions& x, EffectParameters p, Forces& f) const = 0;
   /// Adds d2E/dx2 [N/m].
   virtual void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const = 0;
-  /// Adds the stiffness a Newton step from `x` should use when `x` was itself reached by a step
-  /// from `previous`. Differs from add_stiffness only where a stiff constraint makes the force at
-  /// x a poor guess of the force after the step; equal to it when both shapes are the same.
+  /// Adds the stiffness a Newton step from `x` should use when `x` was reached from `previous` by
+  /// following the linear `step` (along a straight or a curved path). Differs from add_stiffness
+  /// only where a stiff constraint makes the force at x a poor guess of the force after the step;
+  /// equal to it when x is `previous` and the step is zero.
   virtual void add_step_stiffness(const Positions& x, const Positions& /*previous*/,
-                                  EffectParameters p, Stiffness& k) const {
+                                  const Vector& /*step*/, EffectParameters p, Stiffness& k) const {
     add_stiffness(x, p, k);
   }
   /// Adds the derivative of the force with respect to parameter k [N per unit].

@@ -1,10 +1,8 @@
 #include "forward/effects/elasticity.hpp"
 
-#include <Eigen/Dense>
 #include <limits>
 
 #include "forward/effects/yeoh.hpp"
-#include "forward/hex8.hpp"
 
 namespace genio {
 
@@ -21,33 +19,10 @@ struct Elasticity::Shape {
 };
 
 Elasticity::Elasticity(const HexMesh& mesh, const TissueConstants& c)
-    : info_{{{"a10", "Pa", c.a10, 1, 1e6, 0},
+    : batches_(element_batches(mesh)),
+      info_{{{"a10", "Pa", c.a10, 1, 1e6, 0},
              {"a20", "Pa", c.a20, 0, 1e6, 0},
-             {"kappa", "Pa", c.kappa, 1e3, 1e10, 0}}} {
-  const auto points = hex8::gauss_points();
-  const int n = int(mesh.elements.size());
-  batches_.resize((n + lanes::width - 1) / lanes::width);
-  for (size_t b = 0; b < batches_.size(); ++b) {
-    Batch& batch = batches_[b];
-    batch.count = std::min(lanes::width, n - int(b) * lanes::width);
-    batch.volume = lanes::splat(0);
-    for (int l = 0; l < lanes::width; ++l) {
-      const int e = std::min(int(b) * lanes::width + l, n - 1);
-      batch.element[l] = e;
-      for (int a = 0; a < 8; ++a) batch.node[a][l] = mesh.elements[e][a];
-      for (int q = 0; q < 8; ++q) {
-        const auto d = hex8::derivatives(points[q]);
-        const auto corner = [&](int a) -> const Vec3& { return mesh.nodes[mesh.elements[e][a]]; };
-        const Mat3 jacobian = hex8::jacobian(corner, d);
-        const Eigen::Matrix<double, 8, 3> gradient = d * jacobian.inverse();
-        for (int a = 0; a < 8; ++a)
-          for (int i = 0; i < 3; ++i) batch.gradient[q][a][i][l] = gradient(a, i);
-        batch.weight[q][l] = jacobian.determinant();
-        batch.volume[l] += jacobian.determinant();
-      }
-    }
-  }
-}
+             {"kappa", "Pa", c.kappa, 1e3, 1e10, 0}}} {}
 
 /// Fills `shape`; false when an element is turned inside out.
 bool Elasticity::deform(const Batch& batch, const Positions& x, Shape& s) {
@@ -137,16 +112,16 @@ void Elasticity::add_stiffness(const Positions& x, EffectParameters p, Stiffness
 }
 
 void Elasticity::add_step_stiffness(const Positions& x, const Positions& previous,
-                                    EffectParameters p, Stiffness& k) const {
+                                    const Vector& step, EffectParameters p, Stiffness& k) const {
   Shape s;
   for (const Batch& batch : batches_)
     if (deform(batch, x, s))
-      add_batch_stiffness(batch, s,
-                          p[2] * (predicted_volume(batch, previous, x) / batch.volume - 1.0), p, k);
+      add_batch_stiffness(
+          batch, s, p[2] * (predicted_volume(batch, previous, step) / batch.volume - 1.0), p, k);
 }
 
-/// Volume at `to` as the linearisation at `from` predicts it [m^3].
-Lane Elasticity::predicted_volume(const Batch& batch, const Positions& from, const Positions& to) {
+/// Volume after `step` as the linearisation at `from` predicts it [m^3].
+Lane Elasticity::predicted_volume(const Batch& batch, const Positions& from, const Vector& step) {
   Shape s;
   deform(batch, from, s);
   Lane volume = s.volume;
@@ -155,10 +130,9 @@ Lane Elasticity::predicted_volume(const Batch& batch, const Positions& from, con
     for (int a = 0; a < 8; ++a) {
       const auto& d = batch.gradient[q][a];
       for (int i = 0; i < 3; ++i) {
-        Lane step;
-        for (int l = 0; l < lanes::width; ++l)
-          step[l] = to[3 * batch.node[a][l] + i] - from[3 * batch.node[a][l] + i];
-        volume += w * step *
+        Lane moved;
+        for (int l = 0; l < lanes::width; ++l) moved[l] = step[3 * batch.node[a][l] + i];
+        volume += w * moved *
                   (s.inverse_t[q][i][0] * d[0] + s.inverse_t[q][i][1] * d[1] +
                    s.inverse_t[q][i][2] * d[2]);
       }

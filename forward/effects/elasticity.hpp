@@ -2,7 +2,7 @@
 #include <array>
 
 #include "forward/effects/effect.hpp"
-#include "forward/effects/lanes.hpp"
+#include "forward/element_batches.hpp"
 
 namespace genio {
 
@@ -32,8 +32,8 @@ class Elasticity final : public Effect {
   /// if pressures were unknowns of their own: kappa times the volume error that a straight step
   /// leaves would swamp it (Simo & Taylor 1991, Comput. Methods Appl. Mech. Eng. 85, mixed
   /// Newton with the pressure condensed).
-  void add_step_stiffness(const Positions& x, const Positions& previous, EffectParameters p,
-                          Stiffness& k) const override;
+  void add_step_stiffness(const Positions& x, const Positions& previous, const Vector& step,
+                          EffectParameters p, Stiffness& k) const override;
   void add_force_derivative(const Positions& x, EffectParameters p, int k,
                             Forces& df) const override;
 
@@ -42,17 +42,10 @@ class Elasticity final : public Effect {
 
  private:
   using Lane = lanes::Lane;
-  struct Batch {                                                 // `width` elements side by side
-    std::array<std::array<std::array<Lane, 3>, 8>, 8> gradient;  // dN_a/dX at Gauss point q [1/m]
-    std::array<Lane, 8> weight;                                  // [m^3]
-    Lane volume;                                                 // [m^3]
-    std::array<std::array<int, lanes::width>, 8> node;
-    std::array<int, lanes::width> element;
-    int count;  // lanes in use; the rest repeat the last element
-  };
+  using Batch = ElementBatch;
   struct Shape;  // deformation of a batch at all Gauss points
   static bool deform(const Batch& batch, const Positions& x, Shape& shape);
-  static Lane predicted_volume(const Batch& batch, const Positions& from, const Positions& to);
+  static Lane predicted_volume(const Batch& batch, const Positions& from, const Vector& step);
   static void add_batch_stiffness(const Batch& batch, const Shape& shape, Lane pressure,
                                   EffectParameters p, Stiffness& k);
 

@@ -93,7 +93,7 @@ TEST_P(EffectLaw, StiffnessIsMinusTheForcesDerivativeAndSymmetric) {
 TEST_P(EffectLaw, StepStiffnessEqualsStiffnessWithoutAStep) {
   Stiffness exact(model.pattern), step(model.pattern);
   effect->add_stiffness(x, values, exact);
-  effect->add_step_stiffness(x, x, values, step);
+  effect->add_step_stiffness(x, x, Vector::Zero(x.size()), values, step);
   EXPECT_LE((exact.multiply(direction) - step.multiply(direction)).norm(),
             1e-12 * exact.multiply(direction).norm());
 }

@@ -1,0 +1,144 @@
+#include "forward/curved_step.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace genio {
+namespace {
+
+using lanes::Lane;
+using Lane33 = Lane[3][3];
+
+constexpr int squarings = 4;
+constexpr double straight_enough = 5e-3;  // of the velocity gradient
+
+void multiply(const Lane33& a, const Lane33& b, Lane33& out) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      out[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+}
+
+/// Matrix exponential by scaling, the series up to the fourth power, and squaring.
+void exponential(const Lane33& a, Lane33& e) {
+  Lane33 x, term, next;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      x[i][j] = a[i][j] / double(1 << squarings);
+      term[i][j] = x[i][j];
+      e[i][j] = x[i][j] + (i == j ? 1.0 : 0.0);
+    }
+  for (int power = 2; power <= 4; ++power) {
+    multiply(term, x, next);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) term[i][j] = next[i][j] / double(power), e[i][j] += term[i][j];
+  }
+  for (int s = 0; s < squarings; ++s) {
+    multiply(e, e, next);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) e[i][j] = next[i][j];
+  }
+}
+
+void gradient(const ElementBatch& batch, int q, const Vector& field, Lane33& g) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) g[i][j] = lanes::splat(0);
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) {
+      Lane v;
+      for (int l = 0; l < lanes::width; ++l) v[l] = field[3 * batch.node[a][l] + i];
+      for (int j = 0; j < 3; ++j) g[i][j] += v * batch.gradient[q][a][j];
+    }
+}
+
+void invert(const Lane33& f, Lane33& inverse) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      inverse[j][i] = f[i1][j1] * f[i2][j2] - f[i1][j2] * f[i2][j1];
+    }
+  const Lane det = f[0][0] * inverse[0][0] + f[0][1] * inverse[1][0] + f[0][2] * inverse[2][0];
+  for (auto& row : inverse)
+    for (Lane& v : row) v /= det;
+}
+
+}  // namespace
+
+CurvedStep::CurvedStep(const HexMesh& mesh, const std::vector<Support>& supports)
+    : batches_(element_batches(mesh)), free_(supports.size(), -1) {
+  for (size_t a = 0; a < supports.size(); ++a)
+    if (supports[a] == Support::free) free_[a] = unknowns_++;
+  std::vector<Eigen::Triplet<double>> inner, outer;
+  for (const ElementBatch& batch : batches_)
+    for (int l = 0; l < batch.count; ++l)
+      for (int a = 0; a < 8; ++a)
+        for (int b = 0; b < 8; ++b) {
+          double k = 0;
+          for (int q = 0; q < 8; ++q)
+            for (int j = 0; j < 3; ++j)
+              k += batch.weight[q][l] * batch.gradient[q][a][j][l] * batch.gradient[q][b][j][l];
+          const int na = batch.node[a][l], nb = batch.node[b][l];
+          if (free_[na] < 0) continue;
+          if (free_[nb] >= 0) inner.emplace_back(free_[na], free_[nb], k);
+          else outer.emplace_back(free_[na], nb, k);
+        }
+  Eigen::SparseMatrix<double> matrix(unknowns_, unknowns_);
+  matrix.setFromTriplets(inner.begin(), inner.end());
+  boundary_.resize(unknowns_, int(supports.size()));
+  boundary_.setFromTriplets(outer.begin(), outer.end());
+  poisson_.compute(matrix);
+}
+
+double CurvedStep::size(const Positions& x, const Vector& step) const {
+  double sum = 0, volume = 0;
+  for (const ElementBatch& batch : batches_)
+    for (int q = 0; q < 8; ++q) {
+      Lane33 f, g, inverse, rate;
+      gradient(batch, q, x, f);
+      gradient(batch, q, step, g);
+      invert(f, inverse);
+      multiply(g, inverse, rate);
+      Lane square = lanes::splat(0);
+      for (const auto& row : rate)
+        for (const Lane& v : row) square += v * v;
+      for (int l = 0; l < batch.count; ++l)
+        sum += batch.weight[q][l] * square[l], volume += batch.weight[q][l];
+    }
+  return std::sqrt(sum / volume);
+}
+
+Positions CurvedStep::operator()(const Positions& x, const Vector& step) const {
+  Positions y = x + step;
+  Matrix right = Matrix::Zero(unknowns_, 3);
+  double largest = 0;
+  for (const ElementBatch& batch : batches_)
+    for (int q = 0; q < 8; ++q) {
+      Lane33 f, g, inverse, rate, e, target;
+      gradient(batch, q, x, f);
+      gradient(batch, q, step, g);
+      invert(f, inverse);
+      multiply(g, inverse, rate);
+      for (int l = 0; l < batch.count; ++l)
+        for (const auto& row : rate)
+          for (const Lane& v : row) largest = std::max(largest, std::abs(v[l]));
+      exponential(rate, e);
+      multiply(e, f, target);
+      for (int a = 0; a < 8; ++a) {
+        const auto& d = batch.gradient[q][a];
+        for (int i = 0; i < 3; ++i) {
+          const Lane pull =
+              batch.weight[q] * (target[i][0] * d[0] + target[i][1] * d[1] + target[i][2] * d[2]);
+          for (int l = 0; l < batch.count; ++l)
+            if (const int u = free_[batch.node[a][l]]; u >= 0) right(u, i) += pull[l];
+        }
+      }
+    }
+  if (!(largest > straight_enough)) return y;
+  const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> nodes(y.data(), 3, y.size() / 3);
+  right -= boundary_ * nodes.transpose();
+  const Matrix solved = poisson_.solve(right);
+  for (size_t a = 0; a < free_.size(); ++a)
+    if (free_[a] >= 0) y.segment<3>(Eigen::Index(3 * a)) = solved.row(free_[a]).transpose();
+  return y;
+}
+
+}  // namespace genio
