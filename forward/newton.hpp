@@ -106,19 +106,6 @@ class Newton {
     return at.merit <= accuracy * start;
   }
 
-  /// Shortens the step until the potential falls.
-  bool line_search(Positions& x, const Vector& r, const Vector& d) const {
-    const double e = potential(x), slope = r.dot(d);
-    const Vector along = model_.dofs.expand(d);
-    for (double t = 1; t > 1e-9; t *= 0.5) {
-      const Positions y = x + t * along;
-      if (potential(y) > e - 1e-4 * t * slope) continue;
-      x = y;
-      return true;
-    }
-    return false;
-  }
-
  private:
   struct State {
     Vector r;       // unbalanced force, less what is held and what the springs take

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <random>
 
+#include "forward/box_mesh.hpp"
+
 namespace genio::test {
 
 ModelDescription small_block() {
@@ -12,19 +14,13 @@ ModelDescription small_block() {
   const auto node = [&](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
   std::mt19937 bits(7);
   const auto jitter = [&] { return 1.2e-3 * (double(bits()) / 4294967296.0 - 0.5); };
-  for (int k = 0; k <= nz; ++k)
-    for (int j = 0; j <= ny; ++j)
-      for (int i = 0; i <= nx; ++i) {
-        d.mesh.nodes.emplace_back(5e-3 * i + jitter(), 5e-3 * j + jitter(), 5e-3 * k + jitter());
-        d.supports.push_back(k == 0 ? (i == 3 ? Support::horizontal : Support::fixed)
-                                    : Support::free);
-      }
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i)
-        d.mesh.elements.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
-                                   node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
-                                   node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+  d.mesh = box_mesh(5e-3 * Vec3(nx, ny, nz), {nx, ny, nz});
+  for (Vec3& x : d.mesh.nodes) {
+    d.supports.push_back(x[2] > 1e-9    ? Support::free
+                         : x[0] > 14e-3 ? Support::horizontal
+                                        : Support::fixed);
+    for (int i = 0; i < 3; ++i) x[i] += jitter();
+  }
   Muscle along{
       "GGP_L",
       2,
