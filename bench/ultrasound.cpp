@@ -45,9 +45,7 @@ Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& t
 Json ultrasound(const Model& m, const std::string& contours, const std::string& palate,
                 const Progress& progress) {
   const ContourFile file = read_contours(contours);
-  const auto trace = midsagittal_points(read_contours(palate));
-  if (trace.empty()) throw InputError(palate + ": no palate point has a value");
-  const Registration r = register_by_palate(m, trace.front(), midsagittal_points(file));
+  const Registration r = register_file(m, file, palate);
   Workspace ws(m);
   Json frames = Json::array();
   std::vector<double> rms, seconds;

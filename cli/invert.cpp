@@ -5,7 +5,6 @@
 #include "forward/model_file.hpp"
 #include "inverse/frame_target.hpp"
 #include "inverse/infer.hpp"
-#include "report/answer_report.hpp"
 
 namespace genio::cli {
 namespace {
@@ -16,12 +15,6 @@ struct InvertOptions {
   double deadline_s = 0;
   bool bilateral = false, json = false;
 };
-
-void print(const AnswerView& view, int frame, bool json) {
-  if (json) fmt::print("{}\n", to_json(view, frame).dump());
-  else fmt::print("{}\n{}\n", view.title, to_table(view));
-  std::fflush(stdout);
-}
 
 /// All of them before the first is worked on: a bad point should not end hours of work.
 std::vector<Target> all_targets(const Model& model, const Measured& measured,
@@ -38,7 +31,7 @@ std::vector<Target> all_targets(const Model& model, const Measured& measured,
 
 int run(const InvertOptions& o) {
   const Model model = read_model(o.model);
-  const Measured measured = read_measured(model, o.measured);
+  const Measured measured = read_measured(o.measured, [&]() -> const Model& { return model; });
   const auto targets = all_targets(model, measured, o.measured.target);
   Workspace ws(model);
   InferOptions options;
@@ -59,9 +52,9 @@ int run(const InvertOptions& o) {
         options.start = answer.activations, options.start_shape = answer.shape;
     }
     all &= view.status == "converged";
-    print(view, frame.number, o.json);
+    print_answer(view, frame.number, o.json);
     if (!o.out.empty()) {
-      const std::string name = fmt::format("frame{:05d}", frame.number);
+      const std::string name = frame_name(frame);
       write_report(model, view, frame.number, o.out, name);
       if (answer.shape.size() > 0) write_shape(model, answer.shape, o.out + "/" + name + ".vtu");
     }

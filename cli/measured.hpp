@@ -2,11 +2,13 @@
 // Measured contours as the command line names them.
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "forward/model.hpp"
 #include "inverse/contour_file.hpp"
+#include "report/answer_report.hpp"
 
 namespace genio::cli {
 
@@ -24,9 +26,15 @@ struct Measured {
 };
 
 /// Reads, picks the frames and registers by the palate trace where the file is in the device's own
-/// axes; says on standard error how well that went. Throws InputError naming file, field or option.
-Measured read_measured(const Model& model, const MeasuredOptions& o);
+/// axes, with the model that `model` gives only then; says on standard error how well that went.
+/// Throws InputError naming file, field or option.
+Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model);
 
+/// One JSON object a line, or the table with its title, at once on standard output.
+void print_answer(const AnswerView& view, int frame, bool json);
+
+/// "frame00007", for its files.
+std::string frame_name(const ContourFrame& frame);
 /// "frame 7: word"
 std::string frame_title(const ContourFrame& frame);
 

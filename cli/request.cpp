@@ -6,7 +6,6 @@
 #include "cli/commands.hpp"
 #include "cli/measured.hpp"
 #include "forward/model_file.hpp"
-#include "report/answer_report.hpp"
 #include "server/client.hpp"
 
 namespace genio::cli {
@@ -58,8 +57,13 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
 }
 
 int run_request(const RequestOptions& o) {
-  const Model model = read_model(o.model);
-  const Measured measured = read_measured(model, o.measured);
+  // The server computes; the model is read here only to register contours or to draw.
+  std::optional<Model> read;
+  const auto model = [&]() -> const Model& {
+    if (!read) read = read_model(o.model);
+    return *read;
+  };
+  const Measured measured = read_measured(o.measured, model);
   Client client(choose_url(o.url));
   bool all = true;
   for (const auto& frame : measured.frames) {
@@ -74,10 +78,8 @@ int run_request(const RequestOptions& o) {
                                            choose_url(o.url), o.timeout_s));
     const AnswerView view = view_of(*reply, frame);
     all &= view.status == "converged";
-    if (o.json) fmt::print("{}\n", to_json(view, frame.number).dump());
-    else fmt::print("{}\n{}\n", view.title, to_table(view));
-    if (!o.out.empty())
-      write_report(model, view, frame.number, o.out, fmt::format("frame{:05d}", frame.number));
+    print_answer(view, frame.number, o.json);
+    if (!o.out.empty()) write_report(model(), view, frame.number, o.out, frame_name(frame));
   }
   return all ? done : no_answer;
 }

@@ -39,17 +39,6 @@ void exponential(const Lane33& a, Lane33& e) {
   }
 }
 
-void gradient(const ElementBatch& batch, int q, const Vector& field, Lane33& g) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) g[i][j] = lanes::splat(0);
-  for (int a = 0; a < 8; ++a)
-    for (int i = 0; i < 3; ++i) {
-      Lane v;
-      for (int l = 0; l < lanes::width; ++l) v[l] = field[3 * batch.node[a][l] + i];
-      for (int j = 0; j < 3; ++j) g[i][j] += v * batch.gradient[q][a][j];
-    }
-}
-
 void invert(const Lane33& f, Lane33& inverse) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -90,11 +79,12 @@ CurvedStep::CurvedStep(const HexMesh& mesh, const std::vector<Support>& supports
 
 double CurvedStep::size(const Positions& x, const Vector& step) const {
   double sum = 0, volume = 0;
-  for (const ElementBatch& batch : batches_)
+  for (const ElementBatch& batch : batches_) {
+    const auto position = gather(batch, x), moved = gather(batch, step);
     for (int q = 0; q < 8; ++q) {
       Lane33 f, g, inverse, rate;
-      gradient(batch, q, x, f);
-      gradient(batch, q, step, g);
+      gradient(batch, q, position, f);
+      gradient(batch, q, moved, g);
       invert(f, inverse);
       multiply(g, inverse, rate);
       Lane square = lanes::splat(0);
@@ -103,6 +93,7 @@ double CurvedStep::size(const Positions& x, const Vector& step) const {
       for (int l = 0; l < batch.count; ++l)
         sum += batch.weight[q][l] * square[l], volume += batch.weight[q][l];
     }
+  }
   return std::sqrt(sum / volume);
 }
 
@@ -110,11 +101,12 @@ Positions CurvedStep::operator()(const Positions& x, const Vector& step) const {
   Positions y = x + step;
   Matrix right = Matrix::Zero(unknowns_, 3);
   double largest = 0;
-  for (const ElementBatch& batch : batches_)
+  for (const ElementBatch& batch : batches_) {
+    const auto position = gather(batch, x), moved = gather(batch, step);
     for (int q = 0; q < 8; ++q) {
       Lane33 f, g, inverse, rate, e, target;
-      gradient(batch, q, x, f);
-      gradient(batch, q, step, g);
+      gradient(batch, q, position, f);
+      gradient(batch, q, moved, g);
       invert(f, inverse);
       multiply(g, inverse, rate);
       for (int l = 0; l < batch.count; ++l)
@@ -132,6 +124,7 @@ Positions CurvedStep::operator()(const Positions& x, const Vector& step) const {
         }
       }
     }
+  }
   if (!(largest > straight_enough)) return y;
   const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> nodes(y.data(), 3, y.size() / 3);
   right -= boundary_ * nodes.transpose();

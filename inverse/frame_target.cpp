@@ -98,6 +98,13 @@ Target make_target(const Model& model, const ContourFrame& frame, double noise) 
   return target;
 }
 
+Registration register_file(const Model& model, const ContourFile& file,
+                           const std::string& palate_path, const std::string& format) {
+  const auto palate = midsagittal_points(read_contours(palate_path, format));
+  if (palate.empty()) throw InputError(palate_path + ": no palate point has a value");
+  return register_by_palate(model, palate.front(), midsagittal_points(file));
+}
+
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {
   std::vector<std::vector<Vec2>> result;
   for (const auto& frame : file.frames) {

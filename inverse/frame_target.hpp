@@ -16,6 +16,11 @@ ContourFrame registered(const Model& model, const ContourFrame& frame, const Sim
 /// Throws InputError naming the point.
 Target make_target(const Model& model, const ContourFrame& frame, double noise);
 
+/// Registers a file in a device's own axes by the palate trace of the same session, read from
+/// `palate_path`. Throws InputError naming that file when it has no palate point.
+Registration register_file(const Model& model, const ContourFile& file,
+                           const std::string& palate_path, const std::string& format = "auto");
+
 /// The curve points of all frames, (x, z) [m], in the file's frame.
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);
 

@@ -26,18 +26,11 @@ Elasticity::Elasticity(const HexMesh& mesh, const TissueConstants& c)
 
 /// Fills `shape`; false when an element is turned inside out.
 bool Elasticity::deform(const Batch& batch, const Positions& x, Shape& s) {
-  Lane3 position[8];
-  for (int a = 0; a < 8; ++a)
-    for (int l = 0; l < lanes::width; ++l)
-      for (int i = 0; i < 3; ++i) position[a][i][l] = x[3 * batch.node[a][l] + i];
+  const auto position = gather(batch, x);
   s.volume = lanes::splat(0);
   for (int q = 0; q < 8; ++q) {
     auto& f = s.f[q];
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        f[i][j] = position[0][i] * batch.gradient[q][0][j];
-        for (int a = 1; a < 8; ++a) f[i][j] += position[a][i] * batch.gradient[q][a][j];
-      }
+    gradient(batch, q, position, f);
     auto& c = s.inverse_t[q];  // cofactors first
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -125,17 +118,15 @@ Lane Elasticity::predicted_volume(const Batch& batch, const Positions& from, con
   Shape s;
   deform(batch, from, s);
   Lane volume = s.volume;
+  const auto moved = gather(batch, step);
   for (int q = 0; q < 8; ++q) {
     const Lane w = batch.weight[q] * s.j[q];
     for (int a = 0; a < 8; ++a) {
       const auto& d = batch.gradient[q][a];
-      for (int i = 0; i < 3; ++i) {
-        Lane moved;
-        for (int l = 0; l < lanes::width; ++l) moved[l] = step[3 * batch.node[a][l] + i];
-        volume += w * moved *
+      for (int i = 0; i < 3; ++i)
+        volume += w * moved[a][i] *
                   (s.inverse_t[q][i][0] * d[0] + s.inverse_t[q][i][1] * d[1] +
                    s.inverse_t[q][i][2] * d[2]);
-      }
     }
   }
   return volume;

@@ -98,8 +98,7 @@ TEST_F(GenericTongue, RestsOutsideTheBones) {
 TEST_F(GenericTongue, EveryMuscleAtItsMaximumHasAnEquilibrium) {
   const Model m = build_model(d, "generic");
   Workspace ws(m);
-  for (const char* name :
-       {"GGP", "GGM", "GGA", "HG", "STY", "SL", "IL", "TRANS", "VERT", "GH", "MH"}) {
+  for (const std::string& name : test::muscle_names) {
     Parameters p = default_parameters(m);
     double most = 0;
     for (const int k : command_parameters(m, name)) most += m.parameters[size_t(k)].info.upper;

@@ -95,8 +95,7 @@ TEST_F(Grenoble, CadaverHyoglossusInContactIsFound) {
 TEST_F(Grenoble, EveryMuscleAloneAndAllTogetherHaveAnEquilibrium) {
   const Model m = build_model(d, "grenoble");
   Workspace ws(m);
-  for (const char* name :
-       {"GGP", "GGM", "GGA", "HG", "STY", "SL", "IL", "TRANS", "VERT", "GH", "MH"}) {
+  for (const std::string& name : test::muscle_names) {
     Parameters p = default_parameters(m);
     set_command(m, name, 2, p);
     const auto e = solve_equilibrium(m, p, m.rest, ws);

@@ -13,6 +13,10 @@ Model small_model();
 /// The generic tongue as shipped.
 std::string generic_model();
 
+/// The 11 muscles of both tongues, both sides together.
+inline const std::vector<std::string> muscle_names = {"GGP", "GGM",   "GGA",  "HG", "STY", "SL",
+                                                      "IL",  "TRANS", "VERT", "GH", "MH"};
+
 /// Folder of reference data, or empty where it is absent.
 std::string reference_folder();
 
