@@ -85,7 +85,7 @@ Json describe(const Model& m, const Case& c, bool contact, const Progress& progr
       if (rear) forward = std::max(forward, -u[3 * n]), down = std::max(down, -u[3 * n + 2]);
     }
     j["rear_forward_max_mm"] = forward, j["rear_down_max_mm"] = down, j["up_max_mm"] = up;
-    j["max_penetration_mm"] = 1e3 * max_penetration(m, e.x);
+    j["max_penetration_mm"] = 1e3 * max_penetration(m, e.x, e.parameters);
     line += fmt::format("  rear forward {:.1f}, down {:.1f}; up {:.1f}", forward, down, up);
     if (!contact) {
       j["deviation_mm"] = off, j["deviation_percent"] = 100 * off / c.largest;

@@ -69,7 +69,7 @@ int run(const ForwardOptions& o) {
                       {"wall_s", wall}};
   if (e) {
     j["volume_change_percent"] = 100 * (mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest) - 1);
-    j["max_penetration_mm"] = 1e3 * max_penetration(m, e.x);
+    j["max_penetration_mm"] = 1e3 * max_penetration(m, e.x, e.parameters);
     j["energy_J"] = e.energy;
     j["landmarks"] = {{"tip", landmark(m, e, m.landmarks.tip)},
                       {"dorsum", landmark(m, e, m.landmarks.dorsum)},

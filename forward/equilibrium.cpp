@@ -48,7 +48,8 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
     bool advanced = false;
     if (springs == 0) {
       const Vector along = model.dofs.expand(d);
-      t = std::min({t, step_limit(model, x, along), longest_stage / ws.curved.size(x, along)});
+      t = std::min({t, step_limit(model, x, along, result.parameters),
+                    longest_stage / ws.curved.size(x, along)});
       for (int tries = 0; tries < stage_tries && t > shortest_stage && newton.shift() == 0;
            ++tries, t *= 0.4) {
         advanced = newton.stage(x, r, d, t, t == 1 ? 1e-6 : 1e-3, y, result.newton_iterations);

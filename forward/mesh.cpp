@@ -81,6 +81,18 @@ std::vector<double> nodal_areas(const HexMesh& mesh, const std::vector<Quad>& qu
   return area;
 }
 
+Vector tissue_mass(const HexMesh& mesh, double density) {
+  Vector mass = Vector::Zero(Eigen::Index(mesh.nodes.size()));
+  for (const auto& element : mesh.elements)
+    for (const auto& xi : hex8::gauss_points()) {
+      const auto n = hex8::values(xi);
+      const auto corner = [&](int a) -> const Vec3& { return mesh.nodes[element[a]]; };
+      const double volume = hex8::jacobian(corner, hex8::derivatives(xi)).determinant();
+      for (int a = 0; a < 8; ++a) mass[element[a]] += density * n[a] * volume;
+    }
+  return mass;
+}
+
 void check_mesh(const HexMesh& mesh, const std::string& source) {
   if (mesh.elements.empty() || mesh.nodes.empty())
     throw InputError(

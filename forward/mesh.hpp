@@ -39,6 +39,10 @@ std::vector<Quad> boundary_quads(const HexMesh& mesh);
 /// Surface area that each node stands for [m^2]; zero inside.
 std::vector<double> nodal_areas(const HexMesh& mesh, const std::vector<Quad>& quads);
 
+/// Mass of each node of tissue of the given density [kg/m^3], each element's shared by its shape
+/// functions (row sums of the consistent mass matrix) [kg].
+Vector tissue_mass(const HexMesh& mesh, double density);
+
 /// Throws InputError naming `source` when the mesh cannot be computed with: no elements, bad node
 /// numbers, non-finite positions, an element inverted at an integration point, or a size that no
 /// tongue has (which usually means wrong units).

@@ -16,16 +16,20 @@ void Model::finish() {
   dofs = DofMap(supports);
   std::vector<std::pair<int, int>> extra;
   parameters.clear();
-  first_parameter.clear();
+  inputs.assign(effects.size(), {});
   for (size_t e = 0; e < effects.size(); ++e) {
     const auto pairs = effects[e]->couplings();
     extra.insert(extra.end(), pairs.begin(), pairs.end());
-    first_parameter.push_back(int(parameters.size()));
     const auto infos = effects[e]->parameters();
-    for (size_t k = 0; k < infos.size(); ++k)
+    for (size_t k = 0; k < infos.size(); ++k) {
+      inputs[e].push_back(int(parameters.size()));
       parameters.push_back(
           {int(e), int(k), fmt::format("{}.{}", effects[e]->name(), infos[k].name), infos[k]});
+    }
   }
+  for (size_t e = 0; e < effects.size(); ++e)
+    for (const auto& borrowed : effects[e]->borrows())
+      inputs[e].push_back(parameter_index(*this, borrowed));
   pattern = BlockPattern(mesh, extra);
 }
 
@@ -90,8 +94,10 @@ const Effect* find_effect(const Model& model, std::string_view name) {
   return nullptr;
 }
 
-EffectParameters effect_parameters(const Model& model, const Parameters& p, int effect) {
-  return {p.data() + model.first_parameter[effect], model.effects[effect]->parameters().size()};
+std::vector<double> effect_parameters(const Model& model, const Parameters& p, int effect) {
+  std::vector<double> values;
+  for (int k : model.inputs[size_t(effect)]) values.push_back(p[k]);
+  return values;
 }
 
 double energy(const Model& model, const Positions& x, const Parameters& p) {
@@ -121,30 +127,61 @@ void step_stiffness(const Model& model, const Positions& x, const Positions& pre
     model.effects[e]->add_step_stiffness(x, previous, step, effect_parameters(model, p, int(e)), k);
 }
 
-double step_limit(const Model& model, const Positions& x, const Positions& along) {
+double step_limit(const Model& model, const Positions& x, const Positions& along,
+                  const Parameters& p) {
   double t = 1.0;
-  for (const auto& e : model.effects) t = std::min(t, e->step_limit(x, along));
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    t = std::min(t, model.effects[e]->step_limit(x, along, effect_parameters(model, p, int(e))));
   return t;
+}
+
+Forces viscous_force(const Model& model, const Positions& x, const Vector& v, const Parameters& p) {
+  Forces f = Forces::Zero(x.size());
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    model.effects[e]->add_viscous_force(x, v, effect_parameters(model, p, int(e)), f);
+  return f;
+}
+
+void add_damping(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
+                 double scale, Stiffness& scratch, Stiffness& k) {
+  scratch.set_zero();
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    model.effects[e]->add_damping(x, v, effect_parameters(model, p, int(e)), scratch);
+  k.add(scratch, scale);
+}
+
+Vector nodal_mass(const Model& model, const Parameters& p) {
+  if (model.tissue_mass.size() == 0)
+    throw InputError(model.name + ": the model has no mass; dynamics needs its density");
+  Vector mass = model.tissue_mass;
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    model.effects[e]->add_mass(effect_parameters(model, p, int(e)), mass);
+  return mass;
 }
 
 Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
                          std::span<const int> parameters) {
-  Matrix result(x.size(), Eigen::Index(parameters.size()));
-  for (size_t c = 0; c < parameters.size(); ++c) {
-    const auto& slot = model.parameters[parameters[c]];
-    Forces column = Forces::Zero(x.size());
-    model.effects[slot.effect]->add_force_derivative(x, effect_parameters(model, p, slot.effect),
-                                                     slot.index, column);
-    result.col(Eigen::Index(c)) = column;
+  Matrix result = Matrix::Zero(x.size(), Eigen::Index(parameters.size()));
+  Forces column;
+  for (size_t e = 0; e < model.effects.size(); ++e) {
+    const auto& inputs = model.inputs[e];
+    const auto values = effect_parameters(model, p, int(e));
+    for (size_t c = 0; c < parameters.size(); ++c)
+      for (size_t k = 0; k < inputs.size(); ++k) {
+        if (inputs[k] != parameters[c]) continue;
+        column = Forces::Zero(x.size());
+        model.effects[e]->add_force_derivative(x, values, int(k), column);
+        result.col(Eigen::Index(c)) += column;
+      }
   }
   return result;
 }
 
-double max_penetration(const Model& model, const Positions& x) {
+double max_penetration(const Model& model, const Positions& x, const Parameters& p) {
   double depth = 0;
-  for (const auto& e : model.effects)
-    if (const auto* contact = dynamic_cast<const Contact*>(e.get()))
-      depth = std::max(depth, contact->max_penetration(x));
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    if (const auto* contact = dynamic_cast<const Contact*>(model.effects[e].get()))
+      depth = std::max(depth, contact->max_penetration(x, effect_parameters(model, p, int(e))));
   return depth;
 }
 

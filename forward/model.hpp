@@ -42,6 +42,7 @@ struct Model {
   std::vector<int> midsagittal;
   std::optional<TriangleSurface> palate, jaw, hyoid;
   std::vector<std::shared_ptr<const Effect>> effects;
+  Vector tissue_mass;  ///< of each node [kg]; empty where there are no dynamics
 
   // Derived by finish():
   Positions rest;             ///< [m]
@@ -49,7 +50,8 @@ struct Model {
   DofMap dofs;
   BlockPattern pattern;
   std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another
-  std::vector<int> first_parameter;       ///< of each effect
+  /// Of each effect: where its parameters, then those it borrows, stand in Parameters.
+  std::vector<std::vector<int>> inputs;
 
   /// Fills the derived members; call once after the others are set.
   void finish();
@@ -75,8 +77,8 @@ void set_parameter(const Model& model, const std::string& name, double value, Pa
 /// Effect by name; nullptr when the model has none.
 const Effect* find_effect(const Model& model, std::string_view name);
 
-/// The values of one effect within `p`.
-EffectParameters effect_parameters(const Model& model, const Parameters& p, int effect);
+/// The values of one effect within `p`, those it borrows last.
+std::vector<double> effect_parameters(const Model& model, const Parameters& p, int effect);
 
 /// Total potential energy [J]; +infinity for inverted tissue.
 double energy(const Model& model, const Positions& x, const Parameters& p);
@@ -88,12 +90,20 @@ void stiffness(const Model& model, const Positions& x, const Parameters& p, Stif
 void step_stiffness(const Model& model, const Positions& x, const Positions& previous,
                     const Vector& step, const Parameters& p, Stiffness& k);
 /// Smallest of the effects' step limits.
-double step_limit(const Model& model, const Positions& x, const Positions& along);
+double step_limit(const Model& model, const Positions& x, const Positions& along,
+                  const Parameters& p);
+/// Total viscous nodal forces at the velocities v [N].
+Forces viscous_force(const Model& model, const Positions& x, const Vector& v, const Parameters& p);
+/// Adds the total damping, times `scale`, to `k`; `scratch` is overwritten.
+void add_damping(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
+                 double scale, Stiffness& scratch, Stiffness& k);
+/// Mass of each node, the tissue's and the effects' [kg]. Throws InputError for a model without.
+Vector nodal_mass(const Model& model, const Parameters& p);
 /// dF/dp_k as nodal forces, for each of the given parameters: 3 n x count [N per unit].
 Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
                          std::span<const int> parameters);
 
 /// Deepest penetration of any surface [m].
-double max_penetration(const Model& model, const Positions& x);
+double max_penetration(const Model& model, const Positions& x, const Parameters& p);
 
 }  // namespace genio

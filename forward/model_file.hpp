@@ -5,11 +5,9 @@
 #include <string>
 
 #include "forward/model.hpp"
+#include "forward/settings.hpp"
 
 namespace genio {
-
-/// Parameter values of one effect by name; SI units.
-using EffectTable = std::map<std::string, double>;
 
 /// What a model folder says, before any effect is built from it.
 struct ModelDescription {

@@ -32,7 +32,10 @@ class Newton {
   double reference(const Positions& x) const {
     double sum = 0;
     for (size_t e = 0; e < model_.effects.size(); ++e) {
-      if (model_.effects[e]->name() == "elasticity") continue;
+      const auto infos = model_.effects[e]->parameters();
+      if (std::none_of(infos.begin(), infos.end(),
+                       [](const ParameterInfo& i) { return i.load || i.penalty; }))
+        continue;
       Forces f = Forces::Zero(x.size());
       model_.effects[e]->add_force(x, effect_parameters(model_, p_, int(e)), f);
       sum += f.squaredNorm();
@@ -89,7 +92,7 @@ class Newton {
       const Vector c = direction(at.r, 0.03);
       at.merit = at.r.dot(ws_.cholesky.solve(at.r));  // the factor may be a new one
       along = model_.dofs.expand(c);
-      along *= step_limit(model_, y, along);
+      along *= step_limit(model_, y, along, p_);
       State next;
       Positions z;
       for (int halvings = 0;; ++halvings, along *= 0.3) {

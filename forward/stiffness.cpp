@@ -42,6 +42,10 @@ void Stiffness::add(int a, int b, const Mat3& k) {
     for (int j = 0; j < 3; ++j) v[3 * i + j] += a >= b ? k(i, j) : k(j, i);
 }
 
+void Stiffness::add(const Stiffness& other, double scale) {
+  for (size_t i = 0; i < values_.size(); ++i) values_[i] += scale * other.values_[i];
+}
+
 Vector Stiffness::multiply(const Vector& x) const {
   using Block = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
   Vector y = Vector::Zero(x.size());

@@ -4,13 +4,15 @@ namespace genio {
 
 DofMap::DofMap(const std::vector<Support>& supports) : index_(3 * supports.size(), -1) {
   for (size_t a = 0; a < supports.size(); ++a)
-    if (supports[a] == Support::free)
+    if (supports[a] == Support::free || supports[a] == Support::led)
       for (int i = 0; i < 3; ++i) index_[3 * a + i] = unknowns_++;
-  int body = -1;
-  for (size_t a = 0; a < supports.size(); ++a) {
-    if (supports[a] != Support::horizontal) continue;
-    if (body < 0) body = unknowns_, unknowns_ += 2;
-    for (int i = 0; i < 2; ++i) index_[3 * a + i] = body + i;
+  for (const auto& [kind, axes] : {std::pair{Support::horizontal, 2}, {Support::body, 3}}) {
+    int body = -1;
+    for (size_t a = 0; a < supports.size(); ++a) {
+      if (supports[a] != kind) continue;
+      if (body < 0) body = unknowns_, unknowns_ += axes;
+      for (int i = 0; i < axes; ++i) index_[3 * a + i] = body + i;
+    }
   }
 }
 

@@ -11,6 +11,8 @@ enum class Support : int {
   free = 0,
   fixed = 1,       ///< held in place: the jaw insertions
   horizontal = 2,  ///< one rigid body free to translate in x and y: the hyoid
+  led = 3,         ///< an unknown that an effect leads along a path: the jaw insertions, opening
+  body = 4,        ///< one rigid body free to translate: the hyoid on springs
 };
 
 /// Maps the 3 n nodal displacements to the unknowns of the problem.

@@ -24,7 +24,8 @@ struct ParameterInfo {
   bool penalty = false;  ///< enforces a constraint; a far solve starts with a softer one
 };
 
-/// Values of one effect's parameters, in the order of Effect::parameters().
+/// Values of one effect's parameters, in the order of Effect::parameters(), then of those it
+/// borrows.
 using EffectParameters = std::span<const double>;
 
 /// Energy, force and stiffness of one effect, and how its force changes with its parameters.
@@ -34,6 +35,9 @@ class Effect {
   virtual ~Effect() = default;
   virtual std::string_view name() const = 0;
   virtual std::span<const ParameterInfo> parameters() const = 0;
+  /// Parameters of other effects that this one reads ("muscles.GGP_L"). Their values follow its
+  /// own, and add_force_derivative() is asked for them by their place there too.
+  virtual std::vector<std::string> borrows() const { return {}; }
 
   /// Potential energy [J]; +infinity where tissue would be turned inside out.
   virtual double energy(const Positions& x, EffectParameters p) const = 0;
@@ -54,9 +58,29 @@ class Effect {
                                     Forces& df) const = 0;
   /// Largest fraction in (0, 1] of the step `along` from x over which the linearisation at x is
   /// still some guide.
-  virtual double step_limit(const Positions& /*x*/, const Positions& /*along*/) const {
+  virtual double step_limit(const Positions& /*x*/, const Positions& /*along*/,
+                            EffectParameters /*p*/) const {
     return 1.0;
   }
+
+  /// Dissipation function R of the nodal velocities v in the shape x [W]; convex in v.
+  virtual double dissipation(const Positions& /*x*/, const Vector& /*v*/,
+                             EffectParameters /*p*/) const {
+    return 0;
+  }
+  /// Adds -dR/dv [N].
+  virtual void add_viscous_force(const Positions& /*x*/, const Vector& /*v*/,
+                                 EffectParameters /*p*/, Forces& /*f*/) const {}
+  /// Adds d2R/dv2 [N s/m].
+  virtual void add_damping(const Positions& /*x*/, const Vector& /*v*/, EffectParameters /*p*/,
+                           Stiffness& /*c*/) const {}
+  /// Adds the derivative of the viscous force with respect to parameter k [N per unit].
+  virtual void add_viscous_force_derivative(const Positions& /*x*/, const Vector& /*v*/,
+                                            EffectParameters /*p*/, int /*k*/,
+                                            Forces& /*df*/) const {}
+  /// Adds the mass of each node [kg] that is not the tissue's.
+  virtual void add_mass(EffectParameters /*p*/, Vector& /*mass*/) const {}
+
   /// Node pairs this effect couples beyond those that share an element.
   virtual std::vector<std::pair<int, int>> couplings() const { return {}; }
 };

@@ -5,12 +5,12 @@
 
 namespace genio {
 
-/// Weight of the tissue: E = -sum_a m_a g . x_a, with the mass of each element shared over its
-/// nodes by its shape functions. Parameters x, y, z: the acceleration g [m/s^2], absent at 0.
+/// Weight of the tissue: E = -sum_a m_a g . x_a, with the nodal masses m_a. Parameters x, y, z: the
+/// acceleration g [m/s^2], absent at 0.
 class Gravity final : public Effect {
  public:
-  /// `density` in kg/m^3.
-  Gravity(const HexMesh& mesh, double density, const Vec3& acceleration);
+  /// `mass`: of each node [kg].
+  Gravity(Vector mass, const Vec3& acceleration);
 
   std::string_view name() const override { return "gravity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
@@ -21,7 +21,7 @@ class Gravity final : public Effect {
                             Forces& df) const override;
 
  private:
-  std::vector<double> mass_;  // [kg]
+  Vector mass_;
   std::array<ParameterInfo, 3> info_;
 };
 

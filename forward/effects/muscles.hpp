@@ -6,11 +6,9 @@ namespace genio {
 
 /// Muscle tension along fibres that follow the deformation.
 ///
-/// E = sum over commands T_k of T_k * sum over its segments s of share_s * phi(|x_b - x_a|): a
-/// segment pulls its two ends together with the force T_k share_s along its present direction (the
-/// distributed forces of Payan & Perrier 1997, in large deformation). phi(L) = L, but below the
-/// segment's short_length l, where tension fades: l (3/8 + 3/4 s^2 - 1/8 s^4), s = L / l, which
-/// joins L with two continuous derivatives.
+/// E = sum over commands T_k of T_k * sum over its segments s of share_s * L_s: a segment pulls its
+/// two ends together with the force T_k share_s along its present direction (the distributed forces
+/// of Payan & Perrier 1997, in large deformation); very short segments let go (unit_tension).
 /// Parameters: one a command ("GGP_L", ...), its whole force [N], from 0 to the muscle's maximum.
 class Muscles final : public Effect {
  public:
@@ -26,8 +24,6 @@ class Muscles final : public Effect {
   std::vector<std::pair<int, int>> couplings() const override;
 
  private:
-  void add_tension(const Positions& x, int muscle, double tension, Forces& f) const;
-
   std::vector<Muscle> muscles_;
   std::vector<ParameterInfo> info_;
 };

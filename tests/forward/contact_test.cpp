@@ -48,8 +48,8 @@ TEST(Contact, HoldsTheBlockBelowThePalate) {
   Workspace ws(m);
   const auto e = solve_equilibrium(m, default_parameters(m), m.rest, ws);
   ASSERT_TRUE(e) << e.message;
-  EXPECT_GT(max_penetration(m, e.x), 0);
-  EXPECT_LT(max_penetration(m, e.x), 1e-4);
+  EXPECT_GT(max_penetration(m, e.x, e.parameters), 0);
+  EXPECT_LT(max_penetration(m, e.x, e.parameters), 1e-4);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 
 #include "forward/effects/gravity.hpp"
 #include "tests/forward/small_model.hpp"
@@ -31,36 +32,87 @@ void expect_v(const std::vector<double>& e, double bottom) {
   EXPECT_GT(e.back(), best);
 }
 
+/// Effects whose forces depend on velocity only, or that have none.
+bool without_energy(const std::string& name) {
+  return name == "viscosity" || name == "force_velocity" || name == "activation_dynamics";
+}
+
 class EffectLaw : public testing::TestWithParam<std::string> {
  protected:
   EffectLaw()
-      : model(test::small_model()),
+      : model(build_model(test::with_every_effect(), "block")),
         effect(find_effect(model, GetParam())),
         p(default_parameters(model)) {
     set_command(model, "GGP_L", 0.2, p);
     set_command(model, "GGP_R", 0.1, p);
-    for (size_t e = 0; e < model.effects.size(); ++e)
-      if (model.effects[e].get() == effect) values = effect_parameters(model, p, int(e));
+    values = values_at(p);
     x = test::shaken(model, 4e-4, 3);
-    for (int a = 0; a < int(model.mesh.nodes.size()); ++a) x[3 * a + 2] += 1.6e-3;  // some touch
+    for (int a = 0; a < int(model.mesh.nodes.size()); ++a) {
+      x[3 * a + 2] += 1.6e-3;  // some touch
+      if (model.mesh.nodes[size_t(a)][0] < 2e-3) x[3 * a] -= 1.4e-3;
+    }
     direction = test::shaken(model, 1.0, 11) - model.rest;
     direction *= 3e-2 / direction.norm();
+    velocity = 20 * (test::shaken(model, 4e-3, 17) - model.rest);
+  }
+  std::vector<double> values_at(const Parameters& at) const {
+    for (size_t e = 0; e < model.effects.size(); ++e)
+      if (model.effects[e].get() == effect) return effect_parameters(model, at, int(e));
+    return {};
   }
   Forces force_at(const Positions& at) const {
     Forces f = Forces::Zero(at.size());
     effect->add_force(at, values, f);
     return f;
   }
+  Forces viscous_at(const Vector& v) const {
+    Forces f = Forces::Zero(v.size());
+    effect->add_viscous_force(x, v, values, f);
+    return f;
+  }
+  void expect_stiffness(const Stiffness& k, const std::function<Forces(double)>& force) const {
+    const Vector exact = k.multiply(direction);
+    const double scale = exact.norm();
+    ASSERT_GT(scale, 0);
+    expect_v(errors_over_steps([&](double h) {
+               return ((force(-h) - force(h)) / (2 * h) - exact).norm() / scale;
+             }),
+             1e-6);
+    const Vector other = test::shaken(model, 1.0, 23) - model.rest;
+    EXPECT_NEAR(other.dot(exact), direction.dot(k.multiply(other)), 1e-12 * scale * other.norm());
+  }
+  /// d force / d parameter k against differences, for every own and borrowed parameter.
+  template <class Derivative, class Force>
+  void expect_parameter_derivatives(Derivative derivative, Force force) {
+    for (size_t k = 0; k < values.size(); ++k) {
+      Forces exact = Forces::Zero(x.size());
+      derivative(int(k), exact);
+      std::vector<double> up = values, down = values;
+      const double h = values[k] != 0 ? 1e-4 * std::abs(values[k]) : 1e-6;
+      up[k] += h, down[k] -= h;
+      Forces plus = Forces::Zero(x.size()), minus = plus;
+      force(up, plus);
+      force(down, minus);
+      EXPECT_LE(((plus - minus) / (2 * h) - exact).norm(), 1e-6 * std::max(exact.norm(), 1e-9))
+          << "parameter " << k;
+    }
+  }
+
   Model model;
   const Effect* effect;
   Parameters p;
-  EffectParameters values;
+  std::vector<double> values;
   Positions x;
-  Vector direction;
+  Vector direction, velocity;
 };
 
 TEST_P(EffectLaw, ForceIsMinusTheEnergysDerivative) {
   const double exact = -force_at(x).dot(direction);
+  if (without_energy(GetParam())) {
+    EXPECT_EQ(exact, 0.0);
+    EXPECT_EQ(effect->energy(x, values), 0.0);
+    return;
+  }
   ASSERT_NE(exact, 0.0);
   expect_v(errors_over_steps([&](double h) {
              const double quotient = (effect->energy(x + h * direction, values) -
@@ -68,26 +120,15 @@ TEST_P(EffectLaw, ForceIsMinusTheEnergysDerivative) {
                                      (2 * h);
              return std::abs(quotient - exact) / std::abs(exact);
            }),
-           1e-7);
+           1e-6);
 }
 
 TEST_P(EffectLaw, StiffnessIsMinusTheForcesDerivativeAndSymmetric) {
   Stiffness k(model.pattern);
   effect->add_stiffness(x, values, k);
-  const Vector exact = k.multiply(direction);
-  const double scale = std::max(exact.norm(), 1e-12);
-  if (GetParam() == "gravity") {
-    EXPECT_EQ(exact.norm(), 0.0);
-    return;
-  }
-  expect_v(errors_over_steps([&](double h) {
-             return ((force_at(x - h * direction) - force_at(x + h * direction)) / (2 * h) - exact)
-                        .norm() /
-                    scale;
-           }),
-           1e-6);
-  const Vector other = test::shaken(model, 1.0, 23) - model.rest;
-  EXPECT_NEAR(other.dot(exact), direction.dot(k.multiply(other)), 1e-12 * scale * other.norm());
+  if (GetParam() == "gravity" || without_energy(GetParam()))
+    EXPECT_EQ(k.multiply(direction).norm(), 0.0);
+  else expect_stiffness(k, [&](double h) { return force_at(x + h * direction); });
 }
 
 TEST_P(EffectLaw, StepStiffnessEqualsStiffnessWithoutAStep) {
@@ -99,21 +140,59 @@ TEST_P(EffectLaw, StepStiffnessEqualsStiffnessWithoutAStep) {
 }
 
 TEST_P(EffectLaw, ParameterDerivativesAreExact) {
-  for (size_t k = 0; k < effect->parameters().size(); ++k) {
-    Forces exact = Forces::Zero(x.size());
-    effect->add_force_derivative(x, values, int(k), exact);
-    std::vector<double> up(values.begin(), values.end()), down = up;
-    const double h = 1e-4 * std::max(1.0, std::abs(up[k]));
-    up[k] += h, down[k] -= h;
-    Forces plus = Forces::Zero(x.size()), minus = plus;
-    effect->add_force(x, up, plus);
-    effect->add_force(x, down, minus);
-    EXPECT_LE(((plus - minus) / (2 * h) - exact).norm(), 1e-8 * std::max(exact.norm(), 1e-12)) << k;
+  expect_parameter_derivatives(
+      [&](int k, Forces& df) { effect->add_force_derivative(x, values, k, df); },
+      [&](const std::vector<double>& at, Forces& f) { effect->add_force(x, at, f); });
+}
+
+TEST_P(EffectLaw, ViscousForceIsMinusTheDissipationsDerivative) {
+  const double exact = -viscous_at(velocity).dot(direction);
+  if (exact == 0) {  // no dissipation at all
+    EXPECT_EQ(effect->dissipation(x, velocity, values), 0.0);
+    return;
   }
+  EXPECT_GT(-viscous_at(velocity).dot(velocity), 0);
+  expect_v(errors_over_steps([&](double h) {
+             h *= 1e2;
+             const double quotient = (effect->dissipation(x, velocity + h * direction, values) -
+                                      effect->dissipation(x, velocity - h * direction, values)) /
+                                     (2 * h);
+             return std::abs(quotient - exact) / std::abs(exact);
+           }),
+           1e-6);
+}
+
+TEST_P(EffectLaw, DampingIsMinusTheViscousForcesDerivativeAndSymmetric) {
+  if (viscous_at(velocity).norm() == 0) return;
+  Stiffness c(model.pattern);
+  effect->add_damping(x, velocity, values, c);
+  expect_stiffness(c, [&](double h) { return viscous_at(velocity + h * direction); });
+}
+
+TEST_P(EffectLaw, ViscousParameterDerivativesAreExact) {
+  expect_parameter_derivatives(
+      [&](int k, Forces& df) { effect->add_viscous_force_derivative(x, velocity, values, k, df); },
+      [&](const std::vector<double>& at, Forces& f) {
+        effect->add_viscous_force(x, velocity, at, f);
+      });
+}
+
+TEST_P(EffectLaw, VanishesAtItsAbsentParameters) {
+  // Supports are there whatever their parameters.
+  if (GetParam() == "jaw_opening" || GetParam() == "hyoid_mobility") return;
+  const auto own = effect->parameters();
+  for (size_t k = 0; k < own.size(); ++k) values[k] = own[k].absent;
+  EXPECT_EQ(effect->energy(x, values), 0.0);
+  EXPECT_EQ(force_at(x).norm(), 0.0);
+  EXPECT_EQ(viscous_at(velocity).norm(), 0.0);
 }
 
 TEST_P(EffectLaw, InternalForcesBalanceAndIgnoreRigidMotion) {
-  if (GetParam() != "elasticity") return;  // the others act from outside, or have a fixed anchor
+  for (const char* outer : {"gravity", "palate_contact", "jaw_contact", "jaw_opening",
+                            "hyoid_mobility", "airway_pressure"})
+    if (GetParam() == outer) return;  // these act from outside
+  set_command(model, "GGP_R", 0, p);  // its anchor outside
+  values = values_at(p);
   const Forces f = force_at(x);
   Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
   for (Eigen::Index a = 0; a < x.size() / 3; ++a) {
@@ -127,15 +206,19 @@ TEST_P(EffectLaw, InternalForcesBalanceAndIgnoreRigidMotion) {
   for (Eigen::Index a = 0; a < x.size() / 3; ++a)
     y.segment<3>(3 * a) = r * x.segment<3>(3 * a) + Vec3(0.1, -0.2, 0.3);
   EXPECT_NEAR(effect->energy(y, values), effect->energy(x, values),
-              1e-12 * effect->energy(x, values));
+              1e-11 * std::abs(effect->energy(x, values)));
   const Forces turned = force_at(y);
   for (Eigen::Index a = 0; a < x.size() / 3; ++a)
     EXPECT_LE((turned.segment<3>(3 * a) - r * f.segment<3>(3 * a)).norm(), 1e-10 * f.norm());
 }
 
-INSTANTIATE_TEST_SUITE_P(Battery, EffectLaw,
-                         testing::Values("elasticity", "muscles", "gravity", "palate_contact"),
+INSTANTIATE_TEST_SUITE_P(Battery, EffectLaw, testing::ValuesIn(effect_names()),
                          [](const auto& parameter) { return parameter.param; });
+
+TEST(Battery, CoversEveryEffectOfTheSmallModel) {
+  const Model m = build_model(test::with_every_effect(), "block");
+  EXPECT_EQ(m.effects.size(), effect_names().size());
+}
 
 TEST(Muscles, PullFadesSmoothlyWhereASegmentCollapses) {
   const Model m = test::small_model();
@@ -175,7 +258,7 @@ TEST(Elasticity, EnergyIsInfiniteForInvertedTissue) {
 
 TEST(Gravity, PullsWithTheWholeWeight) {
   const Model m = test::small_model();
-  const Gravity g(m.mesh, 1000, Vec3(0, 0, -10));
+  const Gravity g(tissue_mass(m.mesh, 1000), Vec3(0, 0, -10));
   Forces f = Forces::Zero(m.rest.size());
   const double p[] = {0, 0, -10};
   g.add_force(m.rest, p, f);

@@ -32,7 +32,7 @@ TEST(Equilibrium, KeepsTheVolumeAndMidsagittalSymmetry) {
   ASSERT_TRUE(e) << e.message;
   EXPECT_NEAR(mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest), 1, 1e-3);
   EXPECT_LT(std::abs(e.x[3 * m.landmarks.dorsum + 1]), 1e-4);
-  EXPECT_LT(max_penetration(m, e.x), 1e-4);
+  EXPECT_LT(max_penetration(m, e.x, e.parameters), 1e-4);
 }
 
 TEST(Equilibrium, FailureIsAStatusWithAReason) {

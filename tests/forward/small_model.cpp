@@ -49,6 +49,38 @@ ModelDescription small_block() {
   return d;
 }
 
+ModelDescription with_every_effect() {
+  ModelDescription d = small_block();
+  TriangleSurface jaw;  // a tilted plane just in front
+  jaw.vertices = {{-0.0014, -0.01, -0.01},
+                  {-0.0012, 0.03, -0.01},
+                  {-0.001, 0.03, 0.03},
+                  {-0.0012, -0.01, 0.03}};
+  jaw.triangles = {{0, 1, 2}, {0, 2, 3}};
+  d.jaw = jaw;
+  d.effects["palate_contact"]["damping"] = 8;
+  d.effects["jaw_contact"] = {{"stiffness", 2e7}, {"damping", 5}};
+  d.effects["active_stiffening"] = {{"factor", 6}};
+  d.effects["fibre_anisotropy"] = {{"modulus", 900}};
+  d.effects["material_nonlinearity"] = {{"a20", 30}, {"a30", 50}};
+  d.effects["compressibility"] = {{"compliance", 2e-5}};
+  d.effects["mucosa_layer"] = {{"a10", 500}, {"a20", 300}};
+  d.effects["stiff_region"] = {
+      {"factor", 3}, {"x", 0.006}, {"y", 0.004}, {"z", 0.006}, {"radius", 0.007}};
+  d.effects["weak_muscle"] = {{"GGP_L", 0.3}, {"GGP_R", 0.6}};
+  d.effects["extra_muscle"] = {{"from_x", 0.001}, {"from_y", 0.005}, {"from_z", 0.008},
+                               {"to_x", 0.014},   {"to_y", 0.005},   {"to_z", 0.004},
+                               {"radius", 0.004}, {"force", 0.3}};
+  d.effects["force_length"] = {{"strength", 0.7}, {"width", 0.5}, {"optimum", 1.1}};
+  d.effects["force_velocity"] = {{"strength", 0.8}, {"max_velocity", 4}};
+  d.effects["activation_dynamics"] = {};
+  d.effects["jaw_opening"] = {{"angle", 3}, {"slide", 4e-4}, {"hinge_x", 0.05}, {"hinge_z", 0.02}};
+  d.effects["hyoid_mobility"] = {{"compliance_z", 1e-3}, {"stiffness_xy", 100}};
+  d.effects["airway_pressure"] = {{"pressure", 300}};
+  d.effects["viscosity"] = {};
+  return d;
+}
+
 Model small_model() { return build_model(small_block(), "block"); }
 
 std::string generic_model() { return GENIO_SOURCE_DIR "/data/generic"; }

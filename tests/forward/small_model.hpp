@@ -10,6 +10,9 @@ namespace genio::test {
 ModelDescription small_block();
 Model small_model();
 
+/// The same with every effect there is, at parameters where each does something.
+ModelDescription with_every_effect();
+
 /// The generic tongue as shipped.
 std::string generic_model();
 

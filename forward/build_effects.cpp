@@ -1,0 +1,277 @@
+#include "forward/build_effects.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "forward/effects/activation_dynamics.hpp"
+#include "forward/effects/active_stiffening.hpp"
+#include "forward/effects/airway_pressure.hpp"
+#include "forward/effects/compressibility.hpp"
+#include "forward/effects/contact.hpp"
+#include "forward/effects/elasticity.hpp"
+#include "forward/effects/extra_muscle.hpp"
+#include "forward/effects/fibre_anisotropy.hpp"
+#include "forward/effects/force_length.hpp"
+#include "forward/effects/force_velocity.hpp"
+#include "forward/effects/gravity.hpp"
+#include "forward/effects/hyoid_mobility.hpp"
+#include "forward/effects/jaw_opening.hpp"
+#include "forward/effects/material_nonlinearity.hpp"
+#include "forward/effects/mucosa_layer.hpp"
+#include "forward/effects/muscles.hpp"
+#include "forward/effects/stiff_region.hpp"
+#include "forward/effects/viscosity.hpp"
+#include "forward/effects/weak_muscle.hpp"
+#include "forward/nearest_name.hpp"
+
+namespace genio {
+namespace {
+
+using Made = std::shared_ptr<const Effect>;
+using Maker = Made (*)(Settings&, const Anatomy&);
+
+constexpr double field_spacing = 2e-3;    // [m]
+constexpr double deepest_overlap = 2e-3;  // at rest [m]
+constexpr double field_reach = 0.02;      // how far from its rest shape the tongue can touch [m]
+
+std::shared_ptr<const DistanceField> distance_field(const TriangleSurface& surface,
+                                                    const HexMesh& mesh) {
+  Vec3 low = mesh.nodes[0], high = low, s_low = surface.vertices[0], s_high = s_low;
+  for (const Vec3& x : mesh.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  for (const Vec3& x : surface.vertices) s_low = s_low.cwiseMin(x), s_high = s_high.cwiseMax(x);
+  const Vec3 reach = Vec3::Constant(field_reach);
+  low = (low - reach).cwiseMax(s_low - 0.5 * reach);
+  high = (high + reach).cwiseMin(s_high + 0.5 * reach);
+  high = high.cwiseMax(low + Vec3::Constant(4 * field_spacing));
+  return std::make_shared<DistanceField>(surface, low, high, field_spacing, mesh.nodes);
+}
+
+std::vector<int> nodes_with(const Anatomy& a, Support support) {
+  std::vector<int> nodes;
+  for (size_t n = 0; n < a.supports.size(); ++n)
+    if (a.supports[n] == support) nodes.push_back(int(n));
+  return nodes;
+}
+
+/// Where the jaw turns, from the jaw_opening table when there is one.
+Vec3 jaw_hinge(Settings& s) { return s.take_point("hinge_", JawMotion{}.hinge); }
+
+Made contact(Settings& s, const Anatomy& a, const std::string& name,
+             const std::optional<TriangleSurface>& surface) {
+  const ModelDescription& d = a.description;
+  if (!surface)
+    throw InputError(fmt::format("{}: [effect.{}] needs a surface '{}' in [surfaces]", a.source,
+                                 name, name.substr(0, name.find('_'))));
+  const double stiffness = s.take("stiffness", 2e8), damping = s.take("damping", 0);
+  const auto field = distance_field(*surface, d.mesh);
+  const auto area = nodal_areas(d.mesh, boundary_quads(d.mesh));
+  std::vector<ContactNode> nodes;
+  for (size_t n = 0; n < area.size(); ++n) {
+    const double gap = field->value(d.mesh.nodes[n]);
+    // Far behind the surface: another side of it (the floor of the mouth lies behind the pharynx).
+    if (area[n] > 0 && a.supports[n] == Support::free && gap > -deepest_overlap)
+      nodes.push_back({int(n), area[n], std::min(0.0, gap)});
+  }
+  std::optional<Vec3> hinge;
+  if (const auto jaw = d.effects.find("jaw_opening");
+      name == "jaw_contact" && jaw != d.effects.end()) {
+    Settings opening(a.source, "jaw_opening", jaw->second);
+    hinge = jaw_hinge(opening);
+  }
+  return std::make_shared<Contact>(name, field, std::move(nodes), stiffness, damping, hinge);
+}
+
+TissueConstants constants(Settings& s) {
+  TissueConstants c;
+  c.a10 = s.take("a10", c.a10);
+  c.a20 = s.take("a20", c.a20);
+  c.kappa = s.take("kappa", 1000 * c.a10);
+  return c;
+}
+
+Made hyoid_mobility(Settings& s, const Anatomy& a) {
+  const auto nodes = nodes_with(a, Support::body);
+  if (nodes.empty())
+    throw InputError(a.source + ": [effect.hyoid_mobility] needs nodes with support 2 (hyoid)");
+  return std::make_shared<HyoidMobility>(nodes, rest_positions(a.description.mesh),
+                                         s.take("compliance_z", 0), s.take("stiffness_xy", 0),
+                                         s.take("mass", 0.01));
+}
+
+Made weak_muscle(Settings& s, const Anatomy& a) {
+  std::vector<double> loss;
+  for (const Muscle& m : a.muscles) {
+    const std::string both = bilateral_name(m.name);
+    const double shared = both == m.name ? 0.0 : s.take(both, 0);
+    loss.push_back(s.take(m.name, shared));
+  }
+  return std::make_shared<WeakMuscle>(a.muscles, loss);
+}
+
+Made active_stiffening(Settings& s, const Anatomy& a) {
+  const double factor = s.take("factor", 10), largest = s.take("largest", 0);
+  if (largest != 0 && largest != 1)
+    throw InputError(
+        fmt::format("{}: [effect.active_stiffening] largest = {}; expected 0 (muscles "
+                    "of an element add up) or 1 (the largest counts)",
+                    a.source, largest));
+  return std::make_shared<ActiveStiffening>(a.description.mesh, a.muscles, factor,
+                                            largest == 1 ? Recruitment::largest : Recruitment::sum);
+}
+
+Made airway_pressure(Settings& s, const Anatomy& a) {
+  const HexMesh& mesh = a.description.mesh;
+  std::vector<Quad> faces;
+  for (const Quad& f : free_faces(mesh, a.supports)) {
+    const Vec3 normal = (mesh.nodes[size_t(f[2])] - mesh.nodes[size_t(f[0])])
+                            .cross(mesh.nodes[size_t(f[3])] - mesh.nodes[size_t(f[1])]);
+    if (normal.dot(Vec3(0.5, 0, 1)) > 0) faces.push_back(f);
+  }
+  return std::make_shared<AirwayPressure>(mesh, std::move(faces), s.take("pressure", 0));
+}
+
+Vec3 centroid(const HexMesh& mesh) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& x : mesh.nodes) sum += x;
+  return sum / double(mesh.nodes.size());
+}
+
+/// Every effect there is; adding one here is all it takes.
+const std::vector<std::pair<std::string, Maker>>& makers() {
+  static const std::vector<std::pair<std::string, Maker>> all = {
+      {"elasticity",
+       [](Settings& s, const Anatomy& a) -> Made {
+         return std::make_shared<Elasticity>(a.description.mesh, constants(s));
+       }},
+      {"muscles",
+       [](Settings&, const Anatomy& a) -> Made { return std::make_shared<Muscles>(a.muscles); }},
+      {"palate_contact",
+       [](Settings& s, const Anatomy& a) {
+         return contact(s, a, "palate_contact", a.description.palate);
+       }},
+      {"jaw_contact",
+       [](Settings& s, const Anatomy& a) {
+         return contact(s, a, "jaw_contact", a.description.jaw);
+       }},
+      {"gravity",
+       [](Settings& s, const Anatomy& a) -> Made {
+         return std::make_shared<Gravity>(a.mass, s.take_point("", Vec3(0, 0, -9.81)));
+       }},
+      {"active_stiffening", active_stiffening},
+      {"fibre_anisotropy",
+       [](Settings& s, const Anatomy& a) -> Made {
+         return std::make_shared<FibreAnisotropy>(a.description.mesh, a.muscles,
+                                                  s.take("modulus", 0));
+       }},
+      {"material_nonlinearity",
+       [](Settings& s, const Anatomy& a) -> Made {
+         const double a20 = s.take("a20", 0), a30 = s.take("a30", 0);
+         return std::make_shared<MaterialNonlinearity>(a.description.mesh, a20, a30);
+       }},
+      {"compressibility",
+       [](Settings& s, const Anatomy& a) -> Made {
+         return std::make_shared<Compressibility>(a.description.mesh, s.take("compliance", 0));
+       }},
+      {"mucosa_layer",
+       [](Settings& s, const Anatomy& a) -> Made {
+         const double a10 = s.take("a10", 0), a20 = s.take("a20", 0),
+                      thickness = s.take("thickness", 1e-3);
+         return std::make_shared<MucosaLayer>(
+             a.description.mesh, free_faces(a.description.mesh, a.supports), a10, a20, thickness);
+       }},
+      {"stiff_region",
+       [](Settings& s, const Anatomy& a) -> Made {
+         const double factor = s.take("factor", 1), radius = s.take("radius", 0.015);
+         return std::make_shared<StiffRegion>(
+             a.description.mesh, factor, s.take_point("", centroid(a.description.mesh)), radius);
+       }},
+      {"weak_muscle", weak_muscle},
+      {"extra_muscle",
+       [](Settings& s, const Anatomy& a) -> Made {
+         const Vec3 from = s.take_point("from_", Vec3::Zero()),
+                    to = s.take_point("to_", Vec3::Zero());
+         const double radius = s.take("radius", 8e-3), force = s.take("force", 0);
+         return std::make_shared<ExtraMuscle>(a.description.mesh, from, to, radius, force);
+       }},
+      {"force_length",
+       [](Settings& s, const Anatomy& a) -> Made {
+         const double strength = s.take("strength", 1), width = s.take("width", 0.67),
+                      optimum = s.take("optimum", 1);
+         return std::make_shared<ForceLength>(a.muscles, strength, width, optimum);
+       }},
+      {"force_velocity",
+       [](Settings& s, const Anatomy& a) -> Made {
+         const double strength = s.take("strength", 1), velocity = s.take("max_velocity", 10);
+         return std::make_shared<ForceVelocity>(a.muscles, strength, velocity);
+       }},
+      {"activation_dynamics",
+       [](Settings& s, const Anatomy&) -> Made {
+         const double rise = s.take("rise", 0.015), fall = s.take("fall", 0.05);
+         return std::make_shared<ActivationDynamics>(rise, fall);
+       }},
+      {"jaw_opening",
+       [](Settings& s, const Anatomy& a) -> Made {
+         const JawMotion motion{jaw_hinge(s), s.take("angle", 0), s.take("slide", 0)};
+         return std::make_shared<JawOpening>(nodes_with(a, Support::led),
+                                             rest_positions(a.description.mesh), motion);
+       }},
+      {"hyoid_mobility", hyoid_mobility},
+      {"airway_pressure", airway_pressure},
+      {"viscosity", [](Settings& s, const Anatomy& a) -> Made {
+         const double alpha = s.take("alpha", 40), beta = s.take("beta", 0.03);
+         return std::make_shared<Viscosity>(
+             a.mass, std::make_shared<Elasticity>(a.description.mesh, TissueConstants{}), alpha,
+             beta);
+       }}};
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::string>& effect_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> n;
+    for (const auto& [name, maker] : makers()) n.push_back(name);
+    return n;
+  }();
+  return names;
+}
+
+std::vector<Support> supports_for(const ModelDescription& d) {
+  std::vector<Support> supports = d.supports;
+  for (Support& s : supports) {
+    if (s == Support::fixed && d.effects.contains("jaw_opening")) s = Support::led;
+    if (s == Support::horizontal && d.effects.contains("hyoid_mobility")) s = Support::body;
+  }
+  return supports;
+}
+
+std::vector<Quad> free_faces(const HexMesh& mesh, const std::vector<Support>& supports) {
+  std::vector<Quad> faces = boundary_quads(mesh);
+  std::erase_if(faces, [&](const Quad& f) {
+    return std::any_of(f.begin(), f.end(),
+                       [&](int n) { return supports[size_t(n)] != Support::free; });
+  });
+  return faces;
+}
+
+std::shared_ptr<const Effect> make_effect(const std::string& name, const EffectTable& table,
+                                          const Anatomy& anatomy) {
+  const auto maker = std::find_if(makers().begin(), makers().end(),
+                                  [&](const auto& m) { return m.first == name; });
+  if (maker == makers().end())
+    throw InputError(fmt::format("{}: [effect.{}] is no effect; did you mean {}?", anatomy.source,
+                                 name, nearest_name(name, effect_names())));
+  Settings settings(anatomy.source, name, table);
+  const auto effect = maker->second(settings, anatomy);
+  settings.finish();
+  for (const auto& info : effect->parameters())
+    if (!(info.value >= info.lower && info.value <= info.upper))
+      throw InputError(fmt::format("{}: [effect.{}] {} = {}; expected {} to {} {}", anatomy.source,
+                                   name, info.name, info.value, info.lower, info.upper, info.unit));
+  return effect;
+}
+
+}  // namespace genio

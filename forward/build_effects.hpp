@@ -1,0 +1,29 @@
+#pragma once
+// Effects by name, from what a model file says of them.
+
+#include "forward/effects/effect.hpp"
+#include "forward/model_file.hpp"
+#include "forward/settings.hpp"
+
+namespace genio {
+
+/// What effects are made from: the description with the muscles' segments, and what several need.
+struct Anatomy {
+  const ModelDescription& description;
+  const std::string& source;      ///< named in errors
+  std::vector<Muscle> muscles;    ///< with segments
+  std::vector<Support> supports;  ///< as the effects present want them
+  Vector mass;                    ///< of each node [kg]
+};
+
+/// The supports of a model with these effects: opening jaws and mobile hyoids are unknowns.
+std::vector<Support> supports_for(const ModelDescription& description);
+
+/// Makes the effect `name` from its table. Throws InputError naming what is wrong.
+std::shared_ptr<const Effect> make_effect(const std::string& name, const EffectTable& table,
+                                          const Anatomy& anatomy);
+
+/// Faces of the tongue's own surface: boundary faces without a supported node.
+std::vector<Quad> free_faces(const HexMesh& mesh, const std::vector<Support>& supports);
+
+}  // namespace genio

@@ -1,0 +1,70 @@
+#include "forward/effects/fibre_anisotropy.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include "forward/segment_forces.hpp"
+#include "forward/soft_spring.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double toe = 0.1;
+constexpr double neighbourhood = 6e-3;  // [m]
+
+auto fibre_law(double modulus) {
+  return [=](double i4) {
+    const SoftSpring s(i4 - 1, toe);
+    return StretchEnergy{0.25 * modulus * s.value, 0.25 * modulus * s.slope,
+                         0.25 * modulus * s.curvature};
+  };
+}
+
+}  // namespace
+
+Vec3 fibre_direction(const Muscle& muscle, const Positions& rest, const Vec3& point) {
+  Mat3 sum = Mat3::Zero();
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto distance2 = [&](const FibreSegment& s) {
+    return (0.5 * (s.start.position(rest) + s.end.position(rest)) - point).squaredNorm();
+  };
+  for (const auto& s : muscle.segments) nearest = std::min(nearest, distance2(s));
+  for (const auto& s : muscle.segments) {
+    const Vec3 t = span(s, rest).normalized();
+    sum += std::exp((nearest - distance2(s)) / (neighbourhood * neighbourhood)) * t * t.transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Mat3>(sum).eigenvectors().col(2);
+}
+
+FibreAnisotropy::FibreAnisotropy(const HexMesh& mesh, const std::vector<Muscle>& muscles,
+                                 double modulus)
+    : info_{{{"modulus", "Pa", modulus, 0, 1e6, 0}}} {
+  const Positions rest = rest_positions(mesh);
+  std::vector<int> families(mesh.elements.size(), 0);
+  for (const Muscle& m : muscles)
+    for (int e : m.elements) ++families[size_t(e)];
+  for (const Muscle& m : muscles)
+    for (int e : m.elements)
+      for (int q = 0; q < 8; ++q)
+        samples_.push_back(fibre_sample(mesh, e, q,
+                                        fibre_direction(m, rest, gauss_point(mesh, e, q)),
+                                        1.0 / families[size_t(e)]));
+}
+
+double FibreAnisotropy::energy(const Positions& x, EffectParameters p) const {
+  return p[0] == 0 ? 0 : field_energy(samples_, x, fibre_law(p[0]));
+}
+
+void FibreAnisotropy::add_force(const Positions& x, EffectParameters p, Forces& f) const {
+  if (p[0] != 0) add_field_force(samples_, x, fibre_law(p[0]), f);
+}
+
+void FibreAnisotropy::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const {
+  if (p[0] != 0) add_field_stiffness(samples_, x, fibre_law(p[0]), k);
+}
+
+void FibreAnisotropy::add_force_derivative(const Positions& x, EffectParameters, int,
+                                           Forces& df) const {
+  add_field_force(samples_, x, fibre_law(1.0), df);
+}
+
+}  // namespace genio

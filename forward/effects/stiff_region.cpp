@@ -1,0 +1,69 @@
+#include "forward/effects/stiff_region.hpp"
+
+#include "forward/fibre_field.hpp"
+
+namespace genio {
+namespace {
+
+/// a10 and a20 scaled by what `scale` says of each Gauss point.
+template <class Points, class Scale>
+BatchTissue scaled(const Points& points, double a10, double a20, Scale scale) {
+  BatchTissue t;
+  t.kappa = lanes::splat(0);
+  for (int q = 0; q < 8; ++q) {
+    lanes::Lane s;
+    for (int l = 0; l < lanes::width; ++l) s[l] = scale(points[q][l]);
+    t.law[q] = {a10 * s, a20 * s, lanes::splat(0)};
+  }
+  return t;
+}
+
+}  // namespace
+
+StiffRegion::StiffRegion(const HexMesh& mesh, double factor, const Vec3& centre, double radius)
+    : TissueEffect(mesh),
+      info_{{{"factor", "1", factor, 0.05, 100, 1},
+             {"x", "m", centre[0], -1, 1, centre[0]},
+             {"y", "m", centre[1], -1, 1, centre[1]},
+             {"z", "m", centre[2], -1, 1, centre[2]},
+             {"radius", "m", radius, 1e-3, 1, radius}}} {
+  for (const ElementBatch& batch : batches_) {
+    auto& points = points_.emplace_back();
+    for (int q = 0; q < 8; ++q)
+      for (int l = 0; l < lanes::width; ++l) points[q][l] = gauss_point(mesh, batch.element[l], q);
+  }
+}
+
+BatchTissue StiffRegion::tissue(size_t b, EffectParameters p) const {
+  const Vec3 centre(p[1], p[2], p[3]);
+  return scaled(points_[b], p[5], p[6], [&](const Vec3& x) {
+    const double inside = 1 - (x - centre).squaredNorm() / (p[4] * p[4]);
+    return inside > 0 ? (p[0] - 1) * inside * inside * inside : 0.0;
+  });
+}
+
+BatchTissue StiffRegion::tissue_derivative(size_t b, EffectParameters p, int k) const {
+  const Vec3 centre(p[1], p[2], p[3]);
+  const double r2 = p[4] * p[4];
+  const auto scale = [&](const Vec3& x) {
+    const Vec3 d = x - centre;
+    const double inside = 1 - d.squaredNorm() / r2;
+    if (inside <= 0) return 0.0;
+    const double slope = (p[0] - 1) * 3 * inside * inside;  // by `inside`
+    switch (k) {
+      case 0:
+        return inside * inside * inside;
+      case 4:
+        return slope * 2 * d.squaredNorm() / (r2 * p[4]);
+      case 5:
+      case 6:
+        return (p[0] - 1) * inside * inside * inside;
+      default:
+        return slope * 2 * d[k - 1] / r2;
+    }
+  };
+  if (k >= 5) return scaled(points_[b], k == 5, k == 6, scale);
+  return scaled(points_[b], p[5], p[6], scale);
+}
+
+}  // namespace genio
