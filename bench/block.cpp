@@ -5,6 +5,7 @@
 #include "forward/box_mesh.hpp"
 #include "forward/effects/dead_load.hpp"
 #include "forward/effects/elasticity.hpp"
+#include "forward/effects/viscosity.hpp"
 
 namespace genio::bench {
 
@@ -19,8 +20,10 @@ Model block(int split) {
     if (m.mesh.nodes[size_t(element[6])][0] < 0.015 + 1e-9)
       for (const int a : element) weights[3 * a] += 1;
   weights /= weights.sum();
-  m.effects.push_back(std::make_shared<Elasticity>(m.mesh, TissueConstants{192, 90, 191872}));
-  m.effects.push_back(std::make_shared<DeadLoad>("load", weights, 1.0));
+  m.tissue_mass = tissue_mass(m.mesh, 1040);
+  const auto tissue = std::make_shared<Elasticity>(m.mesh, TissueConstants{192, 90, 191872});
+  m.effects = {tissue, std::make_shared<DeadLoad>("load", weights, 1.0),
+               std::make_shared<Viscosity>(m.tissue_mass, tissue, 40, 0.03)};
   m.finish();
   return m;
 }

@@ -13,7 +13,7 @@ struct Anatomy {
   const std::string& source;      ///< named in errors
   std::vector<Muscle> muscles;    ///< with segments
   std::vector<Support> supports;  ///< as the effects present want them
-  Vector mass;                    ///< of each node [kg]
+  NodeMatrix mass;                ///< of the tissue
 };
 
 /// The supports of a model with these effects: opening jaws and mobile hyoids are unknowns.

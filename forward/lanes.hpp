@@ -5,10 +5,10 @@
 
 namespace genio::lanes {
 
-inline constexpr int width = 4;
+inline constexpr int width = 8;
 using Lane = double __attribute__((vector_size(width * sizeof(double))));
 
-inline Lane splat(double v) { return Lane{v, v, v, v}; }
+inline Lane splat(double v) { return Lane{} + v; }
 
 /// v^(-2/3) in each lane.
 inline Lane inverse_two_thirds(Lane v) {

@@ -81,16 +81,32 @@ std::vector<double> nodal_areas(const HexMesh& mesh, const std::vector<Quad>& qu
   return area;
 }
 
-Vector tissue_mass(const HexMesh& mesh, double density) {
-  Vector mass = Vector::Zero(Eigen::Index(mesh.nodes.size()));
+NodeMatrix tissue_mass(const HexMesh& mesh, double density) {
+  std::vector<Eigen::Triplet<double>> entries;
   for (const auto& element : mesh.elements)
     for (const auto& xi : hex8::gauss_points()) {
       const auto n = hex8::values(xi);
       const auto corner = [&](int a) -> const Vec3& { return mesh.nodes[element[a]]; };
       const double volume = hex8::jacobian(corner, hex8::derivatives(xi)).determinant();
-      for (int a = 0; a < 8; ++a) mass[element[a]] += density * n[a] * volume;
+      for (int a = 0; a < 8; ++a)
+        for (int b = 0; b < 8; ++b)
+          entries.emplace_back(element[a], element[b], density * n[a] * n[b] * volume);
     }
+  const auto count = Eigen::Index(mesh.nodes.size());
+  NodeMatrix mass(count, count);
+  mass.setFromTriplets(entries.begin(), entries.end());
   return mass;
+}
+
+Vector multiply(const NodeMatrix& matrix, const Vector& field) {
+  Vector product = Vector::Zero(field.size());
+  for (Eigen::Index b = 0; b < matrix.outerSize(); ++b) {
+    Vec3 sum = Vec3::Zero();  // symmetric: column b is row b
+    for (NodeMatrix::InnerIterator it(matrix, b); it; ++it)
+      sum += it.value() * field.segment<3>(3 * it.index());
+    product.segment<3>(3 * b) = sum;
+  }
+  return product;
 }
 
 void check_mesh(const HexMesh& mesh, const std::string& source) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/SparseCore>
+
 #include "forward/types.hpp"
 
 namespace genio {
@@ -39,9 +41,14 @@ std::vector<Quad> boundary_quads(const HexMesh& mesh);
 /// Surface area that each node stands for [m^2]; zero inside.
 std::vector<double> nodal_areas(const HexMesh& mesh, const std::vector<Quad>& quads);
 
-/// Mass of each node of tissue of the given density [kg/m^3], each element's shared by its shape
-/// functions (row sums of the consistent mass matrix) [kg].
-Vector tissue_mass(const HexMesh& mesh, double density);
+/// A symmetric matrix over nodes, the same for x, y and z.
+using NodeMatrix = Eigen::SparseMatrix<double>;
+
+/// Consistent mass matrix of tissue of the given density [kg/m^3]: integrals of N_a N_b [kg].
+NodeMatrix tissue_mass(const HexMesh& mesh, double density);
+
+/// Its product with a nodal field (3 n).
+Vector multiply(const NodeMatrix& matrix, const Vector& field);
 
 /// Throws InputError naming `source` when the mesh cannot be computed with: no elements, bad node
 /// numbers, non-finite positions, an element inverted at an integration point, or a size that no

@@ -114,6 +114,22 @@ Forces force(const Model& model, const Positions& x, const Parameters& p) {
   return f;
 }
 
+double load_size(const Model& model, const Positions& x, const Parameters& p) {
+  constexpr double floor = 1e-3;  // [N]
+  Forces f;
+  double sum = 0;
+  for (size_t e = 0; e < model.effects.size(); ++e) {
+    const auto infos = model.effects[e]->parameters();
+    if (std::none_of(infos.begin(), infos.end(),
+                     [](const ParameterInfo& i) { return i.load || i.penalty; }))
+      continue;
+    f = Forces::Zero(x.size());
+    model.effects[e]->add_force(x, effect_parameters(model, p, int(e)), f);
+    sum += f.squaredNorm();
+  }
+  return std::max(std::sqrt(sum), floor);
+}
+
 void stiffness(const Model& model, const Positions& x, const Parameters& p, Stiffness& k) {
   k.set_zero();
   for (size_t e = 0; e < model.effects.size(); ++e)
@@ -150,12 +166,14 @@ void add_damping(const Model& model, const Positions& x, const Vector& v, const 
   k.add(scratch, scale);
 }
 
-Vector nodal_mass(const Model& model, const Parameters& p) {
+NodeMatrix mass_matrix(const Model& model, const Parameters& p) {
   if (model.tissue_mass.size() == 0)
     throw InputError(model.name + ": the model has no mass; dynamics needs its density");
-  Vector mass = model.tissue_mass;
+  Vector points = Vector::Zero(model.tissue_mass.rows());
   for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_mass(effect_parameters(model, p, int(e)), mass);
+    model.effects[e]->add_mass(effect_parameters(model, p, int(e)), points);
+  NodeMatrix mass = model.tissue_mass;
+  mass.diagonal() += points;
   return mass;
 }
 

@@ -42,7 +42,7 @@ struct Model {
   std::vector<int> midsagittal;
   std::optional<TriangleSurface> palate, jaw, hyoid;
   std::vector<std::shared_ptr<const Effect>> effects;
-  Vector tissue_mass;  ///< of each node [kg]; empty where there are no dynamics
+  NodeMatrix tissue_mass;  ///< [kg]; empty where there are no dynamics
 
   // Derived by finish():
   Positions rest;             ///< [m]
@@ -84,6 +84,9 @@ std::vector<double> effect_parameters(const Model& model, const Parameters& p, i
 double energy(const Model& model, const Positions& x, const Parameters& p);
 /// Total nodal forces [N].
 Forces force(const Model& model, const Positions& x, const Parameters& p);
+/// Norm of the nodal forces of loads and contacts, which a residual is compared with [N]; at least
+/// 1 mN.
+double load_size(const Model& model, const Positions& x, const Parameters& p);
 /// Total stiffness into `k` (overwritten) [N/m].
 void stiffness(const Model& model, const Positions& x, const Parameters& p, Stiffness& k);
 /// Total stiffness for a Newton step, see Effect::add_step_stiffness.
@@ -97,8 +100,8 @@ Forces viscous_force(const Model& model, const Positions& x, const Vector& v, co
 /// Adds the total damping, times `scale`, to `k`; `scratch` is overwritten.
 void add_damping(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
                  double scale, Stiffness& scratch, Stiffness& k);
-/// Mass of each node, the tissue's and the effects' [kg]. Throws InputError for a model without.
-Vector nodal_mass(const Model& model, const Parameters& p);
+/// The tissue's and the effects' mass [kg]. Throws InputError for a model without.
+NodeMatrix mass_matrix(const Model& model, const Parameters& p);
 /// dF/dp_k as nodal forces, for each of the given parameters: 3 n x count [N per unit].
 Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
                          std::span<const int> parameters);

@@ -12,7 +12,6 @@ namespace genio {
 inline constexpr int stage_iterations = 10;  // Newton steps towards a part of the load
 inline constexpr int patient_iterations =
     14;                                      // conjugate gradients worth less than a factorisation
-inline constexpr double force_floor = 1e-3;  // [N]
 
 /// Everything one Newton solve looks at, so that its steps read like the method.
 class Newton {
@@ -28,20 +27,7 @@ class Newton {
   Vector residual(const Positions& x) const { return model_.dofs.reduce(force(model_, x, p_)); }
   double potential(const Positions& x) const { return energy(model_, x, p_); }
 
-  /// Size of the loads the residual is compared with [N].
-  double reference(const Positions& x) const {
-    double sum = 0;
-    for (size_t e = 0; e < model_.effects.size(); ++e) {
-      const auto infos = model_.effects[e]->parameters();
-      if (std::none_of(infos.begin(), infos.end(),
-                       [](const ParameterInfo& i) { return i.load || i.penalty; }))
-        continue;
-      Forces f = Forces::Zero(x.size());
-      model_.effects[e]->add_force(x, effect_parameters(model_, p_, int(e)), f);
-      sum += f.squaredNorm();
-    }
-    return std::max(std::sqrt(sum), force_floor);
-  }
+  double reference(const Positions& x) const { return load_size(model_, x, p_); }
 
   /// The tangent for a step from x, itself reached from `previous` by following the linear `step`.
   void assemble(const Positions& x, const Positions& previous, const Vector& step) {

@@ -42,6 +42,15 @@ void Stiffness::add(int a, int b, const Mat3& k) {
     for (int j = 0; j < 3; ++j) v[3 * i + j] += a >= b ? k(i, j) : k(j, i);
 }
 
+void Stiffness::add(const NodeMatrix& matrix, double scale) {
+  for (Eigen::Index b = 0; b < matrix.outerSize(); ++b)
+    for (NodeMatrix::InnerIterator it(matrix, b); it; ++it)
+      if (it.index() >= b) {
+        double* v = block(pattern_->slot(int(it.index()), int(b)));
+        for (int i = 0; i < 3; ++i) v[4 * i] += scale * it.value();
+      }
+}
+
 void Stiffness::add(const Stiffness& other, double scale) {
   for (size_t i = 0; i < values_.size(); ++i) values_[i] += scale * other.values_[i];
 }

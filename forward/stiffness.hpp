@@ -46,6 +46,8 @@ class Stiffness {
   const double* block(int slot) const { return &values_[size_t(9) * slot]; }
   /// Adds d2E/dx_a dx_b; call it once for each unordered pair, and once for a == b.
   void add(int a, int b, const Mat3& k);
+  /// Adds scale times a matrix over nodes to each of x, y and z.
+  void add(const NodeMatrix& matrix, double scale);
   /// Adds scale times another on the same pattern.
   void add(const Stiffness& other, double scale);
   /// y = K x over all 3 n unknowns.

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "forward/vtk_io.hpp"
 #include "report/svg.hpp"
 
 namespace genio {
@@ -161,22 +160,6 @@ void write_report(const Model& model, const AnswerView& v, int frame, const std:
     csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", c.name, c.force, c.max_force,
                        c.sd, c.low, c.high);
   write_text(base + ".csv", csv);
-}
-
-void write_shape(const Model& model, const Positions& x, const std::string& path) {
-  VtkData data;
-  VtkArray displacement{3, {}, false};
-  for (size_t a = 0; a < model.mesh.nodes.size(); ++a) {
-    data.points.push_back(node_position(x, int(a)));
-    const Vec3 u = data.points.back() - model.mesh.nodes[a];
-    displacement.values.insert(displacement.values.end(), {u[0], u[1], u[2]});
-  }
-  for (const auto& e : model.mesh.elements) {
-    data.cells.emplace_back(e.begin(), e.end());
-    data.types.push_back(12);
-  }
-  data.point_data["displacement_m"] = std::move(displacement);
-  write_vtu(path, data);
 }
 
 }  // namespace genio

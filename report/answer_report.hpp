@@ -36,7 +36,4 @@ std::string draw(const Model& model, const AnswerView& view);
 void write_report(const Model& model, const AnswerView& view, int frame, const std::string& folder,
                   const std::string& name);
 
-/// The deformed mesh with its displacement, as VTU.
-void write_shape(const Model& model, const Positions& x, const std::string& path);
-
 }  // namespace genio

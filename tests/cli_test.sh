@@ -25,7 +25,7 @@ expect 0 '"volume_change_percent"' "$genio" forward --force GGP=2 --json --out s
 expect 2 'did you mean GGP' "$genio" forward --force GPG=2
 expect 2 'above the muscle' "$genio" forward --force GGP=500
 expect 2 'expected NAME=NUMBER' "$genio" forward --force GGP=nan
-expect 2 'did you mean gravity.z' "$genio" forward --effect gravity.z=-9.81 --effect gravity.zz=1
+expect 2 'did you mean z' "$genio" forward --effect gravity.z=-9.81 --effect gravity.zz=1
 expect 2 'no such model file' "$genio" info --model nowhere
 expect 0 '"verdict":"explained"' "$genio" invert --target "$example" --json --out results
 for kind in svg png csv json vtu; do

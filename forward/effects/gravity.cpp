@@ -4,7 +4,8 @@
 
 namespace genio {
 
-Gravity::Gravity(Vector mass, const Vec3& acceleration) : mass_(std::move(mass)) {
+Gravity::Gravity(const NodeMatrix& mass, const Vec3& acceleration)
+    : mass_(mass * Vector::Ones(mass.cols())) {
   const char* axis[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) info_[i] = {axis[i], "m/s^2", acceleration[i], -20, 20, 0, true};
 }

@@ -2,15 +2,16 @@
 #include <array>
 
 #include "forward/effects/effect.hpp"
+#include "forward/mesh.hpp"
 
 namespace genio {
 
-/// Weight of the tissue: E = -sum_a m_a g . x_a, with the nodal masses m_a. Parameters x, y, z: the
+/// Weight of the tissue: E = -sum_a m_a g . x_a, with the row sums m_a of the
+/// mass matrix. Parameters x, y, z: the
 /// acceleration g [m/s^2], absent at 0.
 class Gravity final : public Effect {
  public:
-  /// `mass`: of each node [kg].
-  Gravity(Vector mass, const Vec3& acceleration);
+  Gravity(const NodeMatrix& mass, const Vec3& acceleration);
 
   std::string_view name() const override { return "gravity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }

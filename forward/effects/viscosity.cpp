@@ -10,7 +10,7 @@ std::array<double, 3> constants(EffectParameters p, double scale) {
 
 }  // namespace
 
-Viscosity::Viscosity(Vector mass, std::shared_ptr<const Elasticity> elasticity, double alpha,
+Viscosity::Viscosity(NodeMatrix mass, std::shared_ptr<const Elasticity> elasticity, double alpha,
                      double beta)
     : mass_(std::move(mass)),
       elasticity_(std::move(elasticity)),
@@ -24,21 +24,20 @@ double Viscosity::dissipation(const Positions& x, const Vector& v, EffectParamet
 
 void Viscosity::add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
                                   Forces& f) const {
-  for (Eigen::Index i = 0; i < f.size(); ++i) f[i] -= p[0] * mass_[i / 3] * v[i];
+  if (p[0] != 0) f -= p[0] * multiply(mass_, v);
   if (p[1] != 0) elasticity_->add_stiffness_product(x, v, constants(p, -p[1]), f);
 }
 
 void Viscosity::add_damping(const Positions& x, const Vector&, EffectParameters p,
                             Stiffness& c) const {
-  for (Eigen::Index a = 0; a < mass_.size(); ++a)
-    c.add(int(a), int(a), p[0] * mass_[a] * Mat3::Identity());
+  if (p[0] != 0) c.add(mass_, p[0]);
   if (p[1] != 0) elasticity_->add_stiffness(x, constants(p, p[1]), c);
 }
 
 void Viscosity::add_viscous_force_derivative(const Positions& x, const Vector& v,
                                              EffectParameters p, int k, Forces& df) const {
   if (k == 0) {
-    for (Eigen::Index i = 0; i < df.size(); ++i) df[i] -= mass_[i / 3] * v[i];
+    df -= multiply(mass_, v);
     return;
   }
   std::array<double, 3> c = constants(p, -1);

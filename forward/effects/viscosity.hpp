@@ -6,14 +6,13 @@
 
 namespace genio {
 
-/// Rayleigh damping, R = 1/2 v.(alpha M + beta K) v with the lumped mass M of the tissue and the
+/// Rayleigh damping, R = 1/2 v.(alpha M + beta K) v with the mass M of the tissue and the
 /// stiffness K of its elasticity in the shape x (the seed model's C = alpha M + beta K; Buchaillard
 /// et al. 2009: alpha 40 1/s, beta 0.03 s). It acts in dynamics only.
 /// Parameters: alpha [1/s], beta [s].
 class Viscosity final : public Effect {
  public:
-  /// `mass`: of each node [kg].
-  Viscosity(Vector mass, std::shared_ptr<const Elasticity> elasticity, double alpha, double beta);
+  Viscosity(NodeMatrix mass, std::shared_ptr<const Elasticity> elasticity, double alpha, double beta);
 
   std::string_view name() const override { return "viscosity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
@@ -34,7 +33,7 @@ class Viscosity final : public Effect {
                                     Forces& df) const override;
 
  private:
-  Vector mass_;
+  NodeMatrix mass_;
   std::shared_ptr<const Elasticity> elasticity_;
   std::array<ParameterInfo, 2> info_;
 };
