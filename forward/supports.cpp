@@ -4,8 +4,11 @@ namespace genio {
 
 DofMap::DofMap(const std::vector<Support>& supports) : index_(3 * supports.size(), -1) {
   for (size_t a = 0; a < supports.size(); ++a)
-    if (supports[a] == Support::free || supports[a] == Support::led)
-      for (int i = 0; i < 3; ++i) index_[3 * a + i] = unknowns_++;
+    for (int i = 0; i < 3; ++i) {
+      const bool partly = supports[a] >= Support::held && !(int(supports[a]) >> i & 1);
+      if (supports[a] == Support::free || supports[a] == Support::led || partly)
+        index_[3 * a + i] = unknowns_++;
+    }
   for (const auto& [kind, axes] : {std::pair{Support::horizontal, 2}, {Support::body, 3}}) {
     int body = -1;
     for (size_t a = 0; a < supports.size(); ++a) {

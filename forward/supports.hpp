@@ -13,7 +13,13 @@ enum class Support : int {
   horizontal = 2,  ///< one rigid body free to translate in x and y: the hyoid
   led = 3,         ///< an unknown that an effect leads along a path: the jaw insertions, opening
   body = 4,        ///< one rigid body free to translate: the hyoid on springs
+  held = 8,        ///< from here on: held along x (+ 1), y (+ 2), z (+ 4), free along the others
 };
+
+/// A node held along some axes: held_along(false, true, false) stays in the midsagittal plane.
+constexpr Support held_along(bool x, bool y, bool z) {
+  return Support(int(Support::held) + x + 2 * y + 4 * z);
+}
 
 /// Maps the 3 n nodal displacements to the unknowns of the problem.
 class DofMap {
