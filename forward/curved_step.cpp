@@ -50,6 +50,22 @@ void invert(const Lane33& f, Lane33& inverse) {
     for (Lane& v : row) v /= det;
 }
 
+/// F and the velocity gradient grad(step) F^-1 of a batch at its Gauss points.
+struct VelocityGradient {
+  Lane33 f[8], rate[8];
+
+  VelocityGradient(const ElementBatch& batch, const Positions& x, const Vector& step) {
+    const auto position = gather(batch, x), moved = gather(batch, step);
+    for (int q = 0; q < 8; ++q) {
+      Lane33 g, inverse;
+      gradient(batch, q, position, f[q]);
+      gradient(batch, q, moved, g);
+      invert(f[q], inverse);
+      multiply(g, inverse, rate[q]);
+    }
+  }
+};
+
 }  // namespace
 
 CurvedStep::CurvedStep(const HexMesh& mesh, const std::vector<Support>& supports)
@@ -80,16 +96,11 @@ CurvedStep::CurvedStep(const HexMesh& mesh, const std::vector<Support>& supports
 double CurvedStep::size(const Positions& x, const Vector& step) const {
   double sum = 0, volume = 0;
   for (const ElementBatch& batch : batches_) {
-    const auto position = gather(batch, x), moved = gather(batch, step);
+    const VelocityGradient v(batch, x, step);
     for (int q = 0; q < 8; ++q) {
-      Lane33 f, g, inverse, rate;
-      gradient(batch, q, position, f);
-      gradient(batch, q, moved, g);
-      invert(f, inverse);
-      multiply(g, inverse, rate);
       Lane square = lanes::splat(0);
-      for (const auto& row : rate)
-        for (const Lane& v : row) square += v * v;
+      for (const auto& row : v.rate[q])
+        for (const Lane& r : row) square += r * r;
       for (int l = 0; l < batch.count; ++l)
         sum += batch.weight[q][l] * square[l], volume += batch.weight[q][l];
     }
@@ -99,21 +110,22 @@ double CurvedStep::size(const Positions& x, const Vector& step) const {
 
 Positions CurvedStep::operator()(const Positions& x, const Vector& step) const {
   Positions y = x + step;
-  Matrix right = Matrix::Zero(unknowns_, 3);
   double largest = 0;
   for (const ElementBatch& batch : batches_) {
-    const auto position = gather(batch, x), moved = gather(batch, step);
-    for (int q = 0; q < 8; ++q) {
-      Lane33 f, g, inverse, rate, e, target;
-      gradient(batch, q, position, f);
-      gradient(batch, q, moved, g);
-      invert(f, inverse);
-      multiply(g, inverse, rate);
+    const VelocityGradient v(batch, x, step);
+    for (const auto& rate : v.rate)
       for (int l = 0; l < batch.count; ++l)
         for (const auto& row : rate)
-          for (const Lane& v : row) largest = std::max(largest, std::abs(v[l]));
-      exponential(rate, e);
-      multiply(e, f, target);
+          for (const Lane& r : row) largest = std::max(largest, std::abs(r[l]));
+  }
+  if (!(largest > straight_enough)) return y;
+  Matrix right = Matrix::Zero(unknowns_, 3);
+  for (const ElementBatch& batch : batches_) {
+    const VelocityGradient v(batch, x, step);
+    for (int q = 0; q < 8; ++q) {
+      Lane33 e, target;
+      exponential(v.rate[q], e);
+      multiply(e, v.f[q], target);
       for (int a = 0; a < 8; ++a) {
         const auto& d = batch.gradient[q][a];
         for (int i = 0; i < 3; ++i) {
@@ -125,7 +137,6 @@ Positions CurvedStep::operator()(const Positions& x, const Vector& step) const {
       }
     }
   }
-  if (!(largest > straight_enough)) return y;
   const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> nodes(y.data(), 3, y.size() / 3);
   right -= boundary_ * nodes.transpose();
   const Matrix solved = poisson_.solve(right);

@@ -158,7 +158,7 @@ bool Simulation::advance(const State& from, double dt, State& to, Trajectory& re
     }
     // The factor leaves out the 1 - alpha_f that forces at an earlier instant have.
     const Vector d = updates_.apply(
-        r, [&](const Vector& b) -> Vector { return ws_.cholesky.solve(b) / (1 - s.alpha_f); });
+        r, [&](const Vector& b) -> Vector { return ws_.cholesky.precondition(b) / (1 - s.alpha_f); });
     double t = 1;
     Vector next;
     for (int halvings = 0; halvings < 4; ++halvings, t *= 0.5) {

@@ -11,7 +11,7 @@ namespace genio {
 
 inline constexpr int stage_iterations = 10;  // Newton steps towards a part of the load
 inline constexpr int patient_iterations =
-    14;                                      // conjugate gradients worth less than a factorisation
+    20;                                      // conjugate gradients worth less than a factorisation
 
 /// Everything one Newton solve looks at, so that its steps read like the method.
 class Newton {
@@ -76,7 +76,7 @@ class Newton {
       assemble(y, y_before, along);
       ++iterations;
       const Vector c = direction(at.r, 0.03);
-      at.merit = at.r.dot(ws_.cholesky.solve(at.r));  // the factor may be a new one
+      at.merit = at.r.dot(ws_.cholesky.precondition(at.r));  // the factor may be a new one
       along = model_.dofs.expand(c);
       along *= step_limit(model_, y, along, p_);
       State next;
@@ -107,26 +107,30 @@ class Newton {
     const Vector u = model_.dofs.pick(y - x);
     s.energy += held.dot(u) + 0.5 * spring_ * mean_ * u.squaredNorm();
     s.r = residual(y) - held - spring_ * mean_ * u;
-    s.merit = s.r.dot(ws_.cholesky.solve(s.r));
+    s.merit = s.r.dot(ws_.cholesky.precondition(s.r));
     return s;
   }
 
   /// Preconditioned by the last factor. False when it is slow or meets negative curvature.
   bool conjugate_gradients(const Vector& b, double accuracy, Vector& x) const {
     x = Vector::Zero(b.size());
-    Vector r = b, z = ws_.cholesky.solve(r), p = z;
+    Vector r = b, z = ws_.cholesky.precondition(r), p = z;
     double rz = r.dot(z);
-    const double target = accuracy * accuracy * rz;
+    const double whole = rz, target = accuracy * accuracy * rz;
     for (int i = 0; i < patient_iterations; ++i) {
-      const Vector kp = ws_.reduced.multiply(p) + spring_ * mean_ * p;
+      const Vector kp = model_.dofs.reduce(ws_.stiffness.multiply(model_.dofs.expand(p))) +
+                        spring_ * mean_ * p;
       const double curvature = p.dot(kp);
       if (!(curvature > 0)) return false;
       const double step = rz / curvature;
       x += step * p;
       r -= step * kp;
-      z = ws_.cholesky.solve(r);
+      z = ws_.cholesky.precondition(r);
       const double next = r.dot(z);
       if (next <= target) return true;
+      // At the rate so far it will not do: give up before the rest is spent.
+      const double done = std::log(next / whole) / std::log(target / whole);
+      if (i == 4 && done * patient_iterations < 0.6 * (i + 1)) return false;
       p = z + (next / rz) * p;
       rz = next;
     }

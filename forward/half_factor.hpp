@@ -1,0 +1,32 @@
+#pragma once
+// A supernodal Cholesky factor copied to single precision: half the memory to read in a solve.
+
+#include <vector>
+
+#include "forward/types.hpp"
+
+namespace genio {
+
+/// L of P K P^T = L L^T by supernodes: dense panels of columns that share their rows.
+class HalfFactor {
+ public:
+  /// One panel: rows[0 .. columns) are its own columns, the others lie below. `values` is
+  /// column-major with rows.size() entries a column; its upper triangle is not read.
+  void add_panel(const int* rows, int row_count, int columns, const double* values);
+  void clear(const int* permutation, int size);
+  bool empty() const { return panels_.empty(); }
+
+  /// K^-1 b.
+  Vector solve(const Vector& b) const;
+
+ private:
+  struct Panel {
+    int columns, rows;
+    size_t first_row, first_value;
+  };
+  std::vector<Panel> panels_;
+  std::vector<int> rows_, permutation_;
+  std::vector<float> values_;
+};
+
+}  // namespace genio
