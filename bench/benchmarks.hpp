@@ -13,8 +13,12 @@ using Json = nlohmann::json;
 /// One line a step for people who wait; may be empty.
 using Progress = std::function<void(const std::string&)>;
 
-/// Static solves of the block in units of one factorisation.
+/// Static solves of the block in units of one factorisation, beside CalculiX where it is installed.
 Json forward(const Progress& progress);
+
+/// 120 ms of motion in 2 ms steps: the block, and GGP 2 N on the model at `model` and on the Grenoble
+/// tongue of `grenoble_folder` (may be empty), whole and half.
+Json dynamic(const std::string& model, const std::string& grenoble_folder, const Progress& progress);
 
 /// Known forces of three muscles found again from their noiseless contour, cold and warm.
 Json recovery(const Model& model);

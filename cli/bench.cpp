@@ -24,6 +24,8 @@ int run(const BenchOptions& o) {
     j = bench::grenoble(needed(o.data, "--data", o.what), tell);
   } else if (o.what == "forward") {
     j = bench::forward(tell);
+  } else if (o.what == "dynamic") {
+    j = bench::dynamic(o.model, o.data, tell);
   } else {
     const Model m = read_model(o.model);
     if (o.what == "inverse") j = bench::recovery(m);
@@ -40,11 +42,11 @@ int run(const BenchOptions& o) {
 
 Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
-  app.add_option("what", o->what, "forward, inverse, service, ultrasound or grenoble")
+  app.add_option("what", o->what, "forward, dynamic, inverse, service, ultrasound or grenoble")
       ->required()
-      ->check(CLI::IsMember({"forward", "inverse", "service", "ultrasound", "grenoble"}));
+      ->check(CLI::IsMember({"forward", "dynamic", "inverse", "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
-  app.add_option("--data", o->data, "grenoble: folder of the ANSYS files");
+  app.add_option("--data", o->data, "grenoble, dynamic: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
   app.add_flag("--json", o->json, "One JSON object on standard output");

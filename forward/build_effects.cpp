@@ -32,6 +32,7 @@ namespace {
 using Made = std::shared_ptr<const Effect>;
 using Maker = Made (*)(Settings&, const Anatomy&);
 
+constexpr Support in_midplane = held_along(false, true, false);
 constexpr double field_spacing = 2e-3;    // [m]
 constexpr double deepest_overlap = 2e-3;  // at rest [m]
 constexpr double field_reach = 0.02;      // how far from its rest shape the tongue can touch [m]
@@ -66,12 +67,12 @@ Made contact(Settings& s, const Anatomy& a, const std::string& name,
                                  name, name.substr(0, name.find('_'))));
   const double stiffness = s.take("stiffness", 2e8), damping = s.take("damping", 0);
   const auto field = distance_field(*surface, d.mesh);
-  const auto area = nodal_areas(d.mesh, boundary_quads(d.mesh));
+  const auto area = nodal_areas(d.mesh, outer_faces(d.mesh, a.supports));
   std::vector<ContactNode> nodes;
   for (size_t n = 0; n < area.size(); ++n) {
     const double gap = field->value(d.mesh.nodes[n]);
     // Far behind the surface: another side of it (the floor of the mouth lies behind the pharynx).
-    if (area[n] > 0 && a.supports[n] == Support::free && gap > -deepest_overlap)
+    if (area[n] > 0 && moves_freely(a.supports[n]) && gap > -deepest_overlap)
       nodes.push_back({int(n), area[n], std::min(0.0, gap)});
   }
   std::optional<Vec3> hinge;
@@ -248,11 +249,21 @@ std::vector<Support> supports_for(const ModelDescription& d) {
   return supports;
 }
 
-std::vector<Quad> free_faces(const HexMesh& mesh, const std::vector<Support>& supports) {
+bool moves_freely(Support s) { return s == Support::free || s == in_midplane; }
+
+std::vector<Quad> outer_faces(const HexMesh& mesh, const std::vector<Support>& supports) {
   std::vector<Quad> faces = boundary_quads(mesh);
   std::erase_if(faces, [&](const Quad& f) {
-    return std::any_of(f.begin(), f.end(),
-                       [&](int n) { return supports[size_t(n)] != Support::free; });
+    return std::all_of(f.begin(), f.end(),
+                       [&](int n) { return supports[size_t(n)] == in_midplane; });
+  });
+  return faces;
+}
+
+std::vector<Quad> free_faces(const HexMesh& mesh, const std::vector<Support>& supports) {
+  std::vector<Quad> faces = outer_faces(mesh, supports);
+  std::erase_if(faces, [&](const Quad& f) {
+    return std::any_of(f.begin(), f.end(), [&](int n) { return !moves_freely(supports[size_t(n)]); });
   });
   return faces;
 }

@@ -23,7 +23,11 @@ std::vector<Support> supports_for(const ModelDescription& description);
 std::shared_ptr<const Effect> make_effect(const std::string& name, const EffectTable& table,
                                           const Anatomy& anatomy);
 
-/// Faces of the tongue's own surface: boundary faces without a supported node.
+/// A node that moves by itself: free, or free within the plane that half a tongue ends at.
+bool moves_freely(Support support);
+/// Boundary faces, without those of the plane that half a tongue ends at.
+std::vector<Quad> outer_faces(const HexMesh& mesh, const std::vector<Support>& supports);
+/// Faces of the tongue's own surface: outer faces without a supported node.
 std::vector<Quad> free_faces(const HexMesh& mesh, const std::vector<Support>& supports);
 
 }  // namespace genio

@@ -137,6 +137,8 @@ Vector Cholesky::precondition(const Vector& right_hand_side) const {
   return impl_->half.empty() ? solve(right_hand_side) : impl_->half.solve(right_hand_side);
 }
 
+double Cholesky::flops() const { return impl_->common.fl; }
+
 Vector Cholesky::solve(const Vector& right_hand_side) const {
   Vector x(right_hand_side.size());
   solve(right_hand_side.data(), x.data(), 1);

@@ -44,6 +44,8 @@ class Cholesky {
   Vector precondition(const Vector& right_hand_side) const;
   Matrix solve(const Matrix& right_hand_sides) const;
   int factorizations() const { return factorizations_; }
+  /// Floating-point operations of one factorisation, as analysed.
+  double flops() const;
 
  private:
   struct Impl;

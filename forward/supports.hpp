@@ -13,6 +13,7 @@ enum class Support : int {
   horizontal = 2,  ///< one rigid body free to translate in x and y: the hyoid
   led = 3,         ///< an unknown that an effect leads along a path: the jaw insertions, opening
   body = 4,        ///< one rigid body free to translate: the hyoid on springs
+  forward = 5,     ///< one rigid body free along x: the hyoid of half a tongue
   held = 8,        ///< from here on: held along x (+ 1), y (+ 2), z (+ 4), free along the others
 };
 
