@@ -21,10 +21,34 @@ void stay_on_this_thread() {
   if (omp_set_max_active_levels) omp_set_max_active_levels(0);
 }
 
+cholmod_sparse view(const Eigen::SparseMatrix<double>& m) {
+  cholmod_sparse s{};
+  s.nrow = s.ncol = size_t(m.rows());
+  s.nzmax = size_t(m.nonZeros());
+  s.p = const_cast<int*>(m.outerIndexPtr());
+  s.i = const_cast<int*>(m.innerIndexPtr());
+  s.x = const_cast<double*>(m.valuePtr());
+  s.stype = -1;
+  s.itype = CHOLMOD_INT;
+  s.xtype = CHOLMOD_REAL;
+  s.dtype = CHOLMOD_DOUBLE;
+  s.sorted = s.packed = 1;
+  return s;
+}
+
 }  // namespace
 
 ReducedStiffness::ReducedStiffness(const BlockPattern& pattern, const DofMap& dofs) {
   const int n = dofs.unknowns();
+  for (int a = 0; a < pattern.nodes(); ++a)
+    for (int i = 0; i < 3; ++i)
+      if (const int u = dofs.unknown(3 * a + i); u >= 0) {
+        groups_.push_back(u);
+        break;
+      }
+  groups_.push_back(n);
+  std::sort(groups_.begin(), groups_.end());
+  groups_.erase(std::unique(groups_.begin(), groups_.end()), groups_.end());
   const size_t count = size_t(9) * pattern.blocks();
   target_.assign(count, -1);
   twice_.assign(count, false);
@@ -78,24 +102,37 @@ struct Cholesky::Impl {
       half.add_panel(rows + row_start[k], row_start[k + 1] - row_start[k], super[k + 1] - super[k],
                      static_cast<const double*>(factor->x) + value_start[k]);
   }
-
-  static cholmod_sparse view(const Eigen::SparseMatrix<double>& m) {
-    cholmod_sparse s{};
-    s.nrow = s.ncol = size_t(m.rows());
-    s.nzmax = size_t(m.nonZeros());
-    s.p = const_cast<int*>(m.outerIndexPtr());
-    s.i = const_cast<int*>(m.innerIndexPtr());
-    s.x = const_cast<double*>(m.valuePtr());
-    s.stype = -1;
-    s.itype = CHOLMOD_INT;
-    s.xtype = CHOLMOD_REAL;
-    s.dtype = CHOLMOD_DOUBLE;
-    s.sorted = s.packed = 1;
-    return s;
-  }
 };
 
-Cholesky::Cholesky(const ReducedStiffness& k) : impl_(std::make_unique<Impl>()) {
+namespace {
+
+/// Nested dissection of the graph of groups, written out for unknowns.
+std::vector<int> dissected(const Eigen::SparseMatrix<double>& lower,
+                           const std::vector<int>& groups, cholmod_common& c) {
+  const int n = int(groups.size()) - 1;
+  std::vector<int> group_of(size_t(groups.back()));
+  for (int g = 0; g < n; ++g)
+    for (int u = groups[size_t(g)]; u < groups[size_t(g + 1)]; ++u) group_of[size_t(u)] = g;
+  std::vector<Eigen::Triplet<double>> pairs;
+  for (int g = 0; g < n; ++g)  // the first unknown of each speaks for all
+    for (Eigen::SparseMatrix<double>::InnerIterator it(lower, groups[size_t(g)]); it; ++it)
+      pairs.emplace_back(group_of[size_t(it.row())], g, 1.0);
+  Eigen::SparseMatrix<double> graph(n, n);
+  graph.setFromTriplets(pairs.begin(), pairs.end());
+  graph.makeCompressed();
+  cholmod_sparse s = view(graph);
+  std::vector<int> place(static_cast<size_t>(n)), parent = place, member = place, order;
+  if (cholmod_nested_dissection(&s, nullptr, 0, place.data(), parent.data(), member.data(), &c) < 0)
+    throw std::bad_alloc();
+  for (int g : place)
+    for (int u = groups[size_t(g)]; u < groups[size_t(g + 1)]; ++u) order.push_back(u);
+  return order;
+}
+
+}  // namespace
+
+Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& groups)
+    : impl_(std::make_unique<Impl>()) {
   stay_on_this_thread();
   cholmod_common& c = impl_->common;
   cholmod_start(&c);
@@ -110,10 +147,11 @@ Cholesky::Cholesky(const ReducedStiffness& k) : impl_(std::make_unique<Impl>()) 
   c.quick_return_if_not_posdef = 1;
   // Left alone, CHOLMOD is content with minimum degree; nested dissection halves the work here.
   c.nmethods = 2;
-  c.method[0].ordering = CHOLMOD_AMD;
-  c.method[1].ordering = CHOLMOD_NESDIS;
-  cholmod_sparse s = Impl::view(k.lower());
-  impl_->factor = cholmod_analyze(&s, &c);
+  c.method[0].ordering = CHOLMOD_GIVEN;
+  c.method[1].ordering = CHOLMOD_AMD;
+  cholmod_sparse s = view(lower);
+  std::vector<int> order = dissected(lower, groups, c);
+  impl_->factor = cholmod_analyze_p(&s, order.data(), nullptr, 0, &c);
   if (!impl_->factor) throw std::bad_alloc();
 }
 
@@ -122,8 +160,8 @@ Cholesky::~Cholesky() {
   cholmod_finish(&impl_->common);
 }
 
-bool Cholesky::factorize(const ReducedStiffness& k, double shift) {
-  cholmod_sparse s = Impl::view(k.lower());
+bool Cholesky::factorize(const Eigen::SparseMatrix<double>& lower, double shift) {
+  cholmod_sparse s = view(lower);
   double beta[2] = {shift, 0};
   ++factorizations_;
   stay_on_this_thread();

@@ -18,6 +18,9 @@ class ReducedStiffness {
   void assign(const Stiffness& k);
   Vector multiply(const Vector& v) const { return matrix_.selfadjointView<Eigen::Lower>() * v; }
   const Eigen::SparseMatrix<double>& lower() const { return matrix_; }
+  /// Runs of unknowns that belong together, a node's or a body's: the first unknown of each, and the
+  /// number of unknowns last. They share their couplings, so an ordering may treat each as one.
+  const std::vector<int>& groups() const { return groups_; }
   double trace() const { return matrix_.diagonal().sum(); }
 
  private:
@@ -26,18 +29,24 @@ class ReducedStiffness {
   // off-diagonal blocks that meet on the diagonal of a rigid body count twice.
   std::vector<int> target_;
   std::vector<bool> twice_;
+  std::vector<int> groups_;
 };
 
 /// K = L L^T, supernodal. Ordered and analysed once; factorised as often as needed.
 class Cholesky {
  public:
-  explicit Cholesky(const ReducedStiffness& k);
+  explicit Cholesky(const ReducedStiffness& k) : Cholesky(k.lower(), k.groups()) {}
+  /// `lower`: its pattern; `groups` as in ReducedStiffness.
+  Cholesky(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& groups);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
   /// Factorises K + shift I. False where that is not positive definite; the factor is then void.
-  bool factorize(const ReducedStiffness& k, double shift = 0);
+  bool factorize(const ReducedStiffness& k, double shift = 0) {
+    return factorize(k.lower(), shift);
+  }
+  bool factorize(const Eigen::SparseMatrix<double>& lower, double shift = 0);
   bool valid() const { return valid_; }
   Vector solve(const Vector& right_hand_side) const;
   /// solve() in single precision, in less than half the time: to precondition, not to answer.

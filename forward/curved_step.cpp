@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <numeric>
 
 namespace genio {
 namespace {
@@ -83,14 +84,20 @@ CurvedStep::CurvedStep(const HexMesh& mesh, const std::vector<Support>& supports
               k += batch.weight[q][l] * batch.gradient[q][a][j][l] * batch.gradient[q][b][j][l];
           const int na = batch.node[a][l], nb = batch.node[b][l];
           if (free_[na] < 0) continue;
-          if (free_[nb] >= 0) inner.emplace_back(free_[na], free_[nb], k);
+          if (free_[nb] >= 0 && free_[nb] <= free_[na])
+            inner.emplace_back(free_[na], free_[nb], k);
+          else if (free_[nb] >= 0) continue;
           else outer.emplace_back(free_[na], nb, k);
         }
   Eigen::SparseMatrix<double> matrix(unknowns_, unknowns_);
   matrix.setFromTriplets(inner.begin(), inner.end());
   boundary_.resize(unknowns_, int(supports.size()));
   boundary_.setFromTriplets(outer.begin(), outer.end());
-  poisson_.compute(matrix);
+  if (unknowns_ == 0) return;
+  std::vector<int> each(size_t(unknowns_ + 1));
+  std::iota(each.begin(), each.end(), 0);
+  poisson_ = std::make_unique<Cholesky>(matrix, each);
+  poisson_->factorize(matrix);
 }
 
 double CurvedStep::size(const Positions& x, const Vector& step) const {
@@ -118,7 +125,7 @@ Positions CurvedStep::operator()(const Positions& x, const Vector& step) const {
         for (const auto& row : rate)
           for (const Lane& r : row) largest = std::max(largest, std::abs(r[l]));
   }
-  if (!(largest > straight_enough)) return y;
+  if (!poisson_ || !(largest > straight_enough)) return y;
   Matrix right = Matrix::Zero(unknowns_, 3);
   for (const ElementBatch& batch : batches_) {
     const VelocityGradient v(batch, x, step);
@@ -139,7 +146,7 @@ Positions CurvedStep::operator()(const Positions& x, const Vector& step) const {
   }
   const Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>> nodes(y.data(), 3, y.size() / 3);
   right -= boundary_ * nodes.transpose();
-  const Matrix solved = poisson_.solve(right);
+  const Matrix solved = poisson_->solve(right);
   for (size_t a = 0; a < free_.size(); ++a)
     if (free_[a] >= 0) y.segment<3>(Eigen::Index(3 * a)) = solved.row(free_[a]).transpose();
   return y;

@@ -1,9 +1,10 @@
 #pragma once
 // Long steps that turn and stretch tissue instead of dragging it along straight lines.
 
-#include <Eigen/SparseCholesky>
+#include <memory>
 #include <vector>
 
+#include "forward/cholesky.hpp"
 #include "forward/element_batches.hpp"
 #include "forward/supports.hpp"
 
@@ -28,7 +29,7 @@ class CurvedStep {
  private:
   std::vector<ElementBatch> batches_;
   std::vector<int> free_;  // index among the unknown nodes; -1: supported
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> poisson_;
+  std::unique_ptr<Cholesky> poisson_;
   Eigen::SparseMatrix<double> boundary_;  // couplings of unknown nodes to all nodes
   int unknowns_ = 0;
 };
