@@ -20,6 +20,10 @@ Json forward(const Progress& progress);
 /// tongue of `grenoble_folder` (may be empty), whole and half.
 Json dynamic(const std::string& model, const std::string& grenoble_folder, const Progress& progress);
 
+/// Equilibria under `count` random force vectors up to half of every maximum, from rest, and once more
+/// from a neighbour; pairs of different equilibria for the same forces are listed.
+Json robustness(const Model& model, int count, const Progress& progress);
+
 /// Known forces of three muscles found again from their noiseless contour, cold and warm.
 Json recovery(const Model& model);
 

@@ -9,6 +9,7 @@ namespace {
 
 struct BenchOptions {
   std::string what, model = default_model(), data, target, palate;
+  int sample = 500;
   bool json = false;
 };
 
@@ -29,6 +30,7 @@ int run(const BenchOptions& o) {
   } else {
     const Model m = read_model(o.model);
     if (o.what == "inverse") j = bench::recovery(m);
+    else if (o.what == "robustness") j = bench::robustness(m, o.sample, tell);
     else if (o.what == "service") j = bench::service(m);
     else
       j = bench::ultrasound(m, needed(o.target, "--target", o.what),
@@ -42,13 +44,14 @@ int run(const BenchOptions& o) {
 
 Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
-  app.add_option("what", o->what, "forward, dynamic, inverse, service, ultrasound or grenoble")
+  app.add_option("what", o->what, "forward, dynamic, robustness, inverse, service, ultrasound, grenoble")
       ->required()
-      ->check(CLI::IsMember({"forward", "dynamic", "inverse", "service", "ultrasound", "grenoble"}));
+      ->check(CLI::IsMember({"forward", "dynamic", "robustness", "inverse", "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
   app.add_option("--data", o->data, "grenoble, dynamic: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
+  app.add_option("--sample", o->sample, "robustness: random force vectors")->capture_default_str();
   app.add_flag("--json", o->json, "One JSON object on standard output");
   app.footer("Example: genio bench inverse");
   return [o] { return run(*o); };

@@ -203,8 +203,9 @@ ModelDescription import_grenoble(const std::string& folder) {
   d.jaw = read_surface((surfaces / "ICPJaw3.obj").string());
   d.hyoid = read_surface((surfaces / "ICPHyoid3.obj").string());
   d.effects["elasticity"] = {{"a10", 1037}, {"a20", 486}, {"kappa", 1037000}};
-  d.effects["palate_contact"] = {{"stiffness", 2e8}};
-  d.effects["jaw_contact"] = {{"stiffness", 2e8}};
+  d.effects["palate_contact"] = {{"stiffness", 2e8}, {"damping", 5}};
+  d.effects["jaw_contact"] = {{"stiffness", 2e8}, {"damping", 5}};
+  d.effects["viscosity"] = {{"alpha", 40}, {"beta", 0.03}};
   return d;
 }
 

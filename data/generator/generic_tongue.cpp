@@ -83,8 +83,9 @@ ModelDescription make_generic_tongue(const Resolution& r) {
   d.jaw = make_jaw();
   d.hyoid = make_hyoid();
   d.effects["elasticity"] = {{"a10", 1037}, {"a20", 486}, {"kappa", 1037000}};
-  d.effects["palate_contact"] = {{"stiffness", 2e8}};
-  d.effects["jaw_contact"] = {{"stiffness", 2e8}};
+  d.effects["palate_contact"] = {{"stiffness", 2e8}, {"damping", 5}};
+  d.effects["jaw_contact"] = {{"stiffness", 2e8}, {"damping", 5}};
+  d.effects["viscosity"] = {{"alpha", 40}, {"beta", 0.03}};
   return d;
 }
 
