@@ -1,16 +1,36 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include "cli/motion.hpp"
 #include "forward/equilibrium.hpp"
+#include "forward/model_file.hpp"
 #include "report/motion_report.hpp"
+#include "report/seed_suite.hpp"
 
 namespace genio::cli {
 namespace {
 
+/// Published results on this tongue.
+int run_suite(const ForwardOptions& o) {
+  const auto result =
+      seed_suite(read_description(o.model), o.model, o.out,
+                 [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  if (o.json) {
+    fmt::print("{}\n", result.dump());
+  } else {
+    const auto& edges = result["styloglossus_edges"];
+    for (const char* how : {"concentrated", "distributed"})
+      fmt::print("STY, {} forces: edges of the surface up to {:.1f} deg sharper than at rest\n",
+                 how, edges[how].value("largest_deg", std::nan("")));
+  }
+  return done;
+}
+
 int run(const ForwardOptions& o) {
+  if (!o.suite.empty()) return run_suite(o);
   const Model m = changed_model(o);
   if (o.dynamic) return run_motion(m, o);
   const Parameters p = commanded(m, o.forces);
@@ -57,6 +77,8 @@ Runner add_forward(CLI::App& app) {
   app.add_option("--effect", o->effects, "NAME.param=VALUE, SI units");
   app.add_option("--without", o->without, "Leave an effect of the model out");
   app.add_flag("--small-deformation", o->small, "Linear framework of the rest shape");
+  app.add_option("--suite", o->suite, "seed: the published results, on this tongue")
+      ->check(CLI::IsMember({"seed"}));
   add_motion_options(app, *o);
   app.add_flag("--json", o->json, "One JSON object on standard output");
   app.add_option("--out", o->out, "Folder for shape.vtu, or motion.pvd and landmarks.csv");

@@ -9,7 +9,7 @@
 namespace genio::cli {
 
 struct ForwardOptions {
-  std::string model = default_model(), out;
+  std::string model = default_model(), out, suite;
   std::vector<std::string> forces, effects, without;
   bool small = false, json = false;
   // Motion:

@@ -1,0 +1,65 @@
+#include "report/shape_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "inverse/tongue_line.hpp"
+#include "report/svg.hpp"
+
+namespace genio {
+namespace {
+
+constexpr const char *grey = "#9aa0a6", *blue = "#1f5fa8", *bone = "#6b5b45";
+
+Axes framed(Svg& svg, Axes axes, const std::string& below) {
+  svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
+  for (double z = 60; z <= 120; z += 20) {
+    svg.line(axes.left, axes.py(z), axes.left + axes.width, axes.py(z), {"#eee"});
+    svg.text(axes.left - 6, axes.py(z) + 4, fmt::format("{}", z), 11, "end", "#777");
+  }
+  svg.text(axes.left + axes.width / 2, axes.top + axes.height + 20, below, 12, "middle", "#555");
+  return axes;
+}
+
+std::vector<Vec2> in_mm(std::vector<Vec2> points) {
+  for (Vec2& p : points) p *= 1e3;
+  return points;
+}
+
+/// Faces of the surface that look forwards, seen from there.
+void draw_front(Svg& svg, const Axes& axes, const Model& m, const Positions& x,
+                const Style& style) {
+  for (const Quad& face : m.surface) {
+    const Vec3 normal = Vec3(node_position(x, face[2]) - node_position(x, face[0]))
+                            .cross(Vec3(node_position(x, face[3]) - node_position(x, face[1])));
+    if (normal[0] > 0) continue;
+    std::vector<Vec2> outline;
+    for (int i = 0; i < 5; ++i) {
+      const Vec3 p = 1e3 * node_position(x, face[size_t(i % 4)]);
+      outline.emplace_back(p[1], p[2]);
+    }
+    svg.polyline(axes, outline, style);
+  }
+}
+
+}  // namespace
+
+std::string draw_shape(const Model& m, const Positions& x, const std::string& title) {
+  Svg svg(1060, 520);
+  svg.text(50, 28, title, 16, "start", "#111");
+  const Axes side = framed(svg, {38, 148, 44, 134, 50, 44, 530, 434}, "x [mm], lips left");
+  for (const auto* surface : {&m.palate, &m.jaw, &m.hyoid})
+    if (*surface)
+      for (const auto& cut : midsagittal_cut(**surface))
+        svg.polyline(side, in_mm(cut), {bone, "none", 2});
+  const TongueLine line(m);
+  svg.polyline(side, in_mm(line.sample(m.rest, 120)), {grey, "none", 2.4});
+  svg.polyline(side, in_mm(line.sample(x, 120)), {blue, "none", 2.6});
+  const Axes front = framed(svg, {-45, 45, 44, 134, 616, 44, 434, 434}, "y [mm], from the front");
+  draw_front(svg, front, m, m.rest, {"#c9cdd1", "none", 1});
+  draw_front(svg, front, m, x, {blue, "none", 1});
+  return svg.str();
+}
+
+}  // namespace genio
