@@ -24,6 +24,10 @@ Json dynamic(const std::string& model, const std::string& grenoble_folder, const
 /// from a neighbour; pairs of different equilibria for the same forces are listed.
 Json robustness(const Model& model, int count, const Progress& progress);
 
+/// The verification's tables: manufactured solution, Cook's membrane, sphere, order in time, and
+/// CalculiX (where installed) on the block and, with its folder, on the Grenoble tongue.
+Json verification(const std::string& grenoble_folder, const Progress& progress);
+
 /// Known forces of three muscles found again from their noiseless contour, cold and warm.
 Json recovery(const Model& model);
 

@@ -25,6 +25,8 @@ int run(const BenchOptions& o) {
     j = bench::grenoble(needed(o.data, "--data", o.what), tell);
   } else if (o.what == "forward") {
     j = bench::forward(tell);
+  } else if (o.what == "verification") {
+    j = bench::verification(o.data, tell);
   } else if (o.what == "dynamic") {
     j = bench::dynamic(o.model, o.data, tell);
   } else {
@@ -44,11 +46,11 @@ int run(const BenchOptions& o) {
 
 Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
-  app.add_option("what", o->what, "forward, dynamic, robustness, inverse, service, ultrasound, grenoble")
+  app.add_option("what", o->what, "forward, dynamic, robustness, verification, inverse, service, ultrasound, grenoble")
       ->required()
-      ->check(CLI::IsMember({"forward", "dynamic", "robustness", "inverse", "service", "ultrasound", "grenoble"}));
+      ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse", "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
-  app.add_option("--data", o->data, "grenoble, dynamic: folder of the ANSYS files");
+  app.add_option("--data", o->data, "grenoble, dynamic, verification: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
   app.add_option("--sample", o->sample, "robustness: random force vectors")->capture_default_str();

@@ -98,6 +98,11 @@ Model variant(const ModelDescription& tongue, const std::string& source, bool ca
   return build_model(d, source);
 }
 
+void write_picture(const std::string& path, const std::string& svg) {
+  write_text(path + ".svg", svg);
+  write_png(path + ".png", svg, 1);
+}
+
 Json compared(const Row& row, const std::map<std::string, double>& moved) {
   Json list = Json::array();
   for (const Printed& p : row.printed) {
@@ -162,8 +167,8 @@ Json styloglossus(const ModelDescription& tongue, const std::string& source,
     }
     j[name] = sharpness(*model, e.x);
     if (!folder.empty())
-      write_text(folder + "/STY_" + name + ".svg",
-                 draw_shape(*model, e.x, fmt::format("STY 1 N a side, {} forces", name)));
+      write_picture(folder + "/STY_" + name,
+                    draw_shape(*model, e.x, fmt::format("STY 1 N a side, {} forces", name)));
   }
   return j;
 }
@@ -215,9 +220,9 @@ Json seed_suite(const ModelDescription& tongue, const std::string& source,
             csv += fmt::format(",{:.4f},{:.4f},\n", j["volume_percent"].get<double>(),
                                j["max_penetration_mm"].get<double>());
             if (!folder.empty() && per_side && (palate == jaw))
-              write_text(fmt::format("{}/{}_{}_contact_{}.svg", folder, row.name,
-                                     cadaver ? "cadaver" : "living", contact),
-                         draw_shape(m, e.x, line.substr(0, 100)));
+              write_picture(fmt::format("{}/{}_{}_contact_{}", folder, row.name,
+                                        cadaver ? "cadaver" : "living", contact),
+                            draw_shape(m, e.x, line));
           } else {
             line += "  " + e.message;
             csv += fmt::format("{},{},{},{},failed,,,,,,,,,,{}\n", row.name,

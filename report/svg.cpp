@@ -50,9 +50,13 @@ void Svg::circle(double x, double y, double r, const Style& s) {
 }
 
 void Svg::polyline(const Axes& axes, const std::vector<Eigen::Vector2d>& points, const Style& s) {
-  body_ += "<polyline stroke-linejoin=\"round\" points=\"";
+  // A picture within the picture ends at the frame of its axes.
+  body_ += fmt::format(
+      "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">"
+      "<polyline stroke-linejoin=\"round\" points=\"",
+      axes.left, axes.top, axes.width, axes.height);
   for (const auto& p : points) body_ += fmt::format("{:.2f},{:.2f} ", axes.px(p[0]), axes.py(p[1]));
-  body_ += fmt::format("\" {}/>\n", attributes(s));
+  body_ += fmt::format("\" {}/></svg>\n", attributes(s));
 }
 
 void Svg::text(double x, double y, const std::string& words, double size, const std::string& anchor,
