@@ -123,11 +123,11 @@ Json block_table(const Progress& tell) {
   return rows;
 }
 
-/// The Grenoble tongue sagging under its weight, cadaver constants, by mesh and code.
+/// The Grenoble tongue sagging under its weight, living constants, by mesh and code.
 Json tongue_table(const std::string& folder, const Progress& tell) {
   Json rows = Json::array();
   const ModelDescription d = import_grenoble(folder);
-  const TissueConstants c{192, 90, 192000};
+  const TissueConstants c{1037, 486, 1037000};
   const Vec3 weight(0, 0, -9.81 * d.density);
   HexMesh mesh = d.mesh;
   std::vector<Support> supports = d.supports;

@@ -55,6 +55,8 @@ class Cholesky {
   int factorizations() const { return factorizations_; }
   /// Floating-point operations of one factorisation, as analysed.
   double flops() const;
+  /// About how many preconditioned iterations cost as much as one factorisation.
+  int iterations_per_factor() const;
 
  private:
   struct Impl;

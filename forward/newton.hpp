@@ -10,8 +10,6 @@
 namespace genio {
 
 inline constexpr int stage_iterations = 10;  // Newton steps towards a part of the load
-inline constexpr int patient_iterations =
-    20;                                      // conjugate gradients worth less than a factorisation
 
 /// Everything one Newton solve looks at, so that its steps read like the method.
 class Newton {
@@ -117,7 +115,8 @@ class Newton {
     Vector r = b, z = ws_.cholesky.precondition(r), p = z;
     double rz = r.dot(z);
     const double whole = rz, target = accuracy * accuracy * rz;
-    for (int i = 0; i < patient_iterations; ++i) {
+    const int patience = std::clamp(ws_.cholesky.iterations_per_factor(), 12, 120);
+    for (int i = 0; i < patience; ++i) {
       const Vector kp = model_.dofs.reduce(ws_.stiffness.multiply(model_.dofs.expand(p))) +
                         spring_ * mean_ * p;
       const double curvature = p.dot(kp);
@@ -130,7 +129,7 @@ class Newton {
       if (next <= target) return true;
       // At the rate so far it will not do: give up before the rest is spent.
       const double done = std::log(next / whole) / std::log(target / whole);
-      if (i == 4 && done * patient_iterations < 0.6 * (i + 1)) return false;
+      if (i == 4 && done * patience < 0.6 * (i + 1)) return false;
       p = z + (next / rz) * p;
       rz = next;
     }
