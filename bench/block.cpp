@@ -32,9 +32,9 @@ Model block(const std::array<int, 3>& cells) {
     for (const int a : m.mesh.elements[size_t(e)]) weights[3 * a] += 1;
   weights /= weights.sum();
   m.tissue_mass = tissue_mass(m.mesh, 1040);
-  const auto tissue = std::make_shared<Elasticity>(m.mesh, constants);
-  m.effects = {tissue, std::make_shared<DeadLoad>("load", weights, 1.0),
-               std::make_shared<Viscosity>(m.tissue_mass, tissue, 40, 0.03)};
+  m.effects = {std::make_shared<Elasticity>(m.mesh, constants, true),
+               std::make_shared<DeadLoad>("load", weights, 1.0),
+               std::make_shared<Viscosity>(m.tissue_mass, 40, 0.03)};
   m.finish();
   return m;
 }

@@ -92,8 +92,10 @@ Model tissue_problem(HexMesh mesh, std::vector<Support> supports, const TissueCo
 }
 
 void damp(Model& m, double alpha, double beta) {
-  m.effects.push_back(std::make_shared<Viscosity>(
-      m.tissue_mass, std::make_shared<Elasticity>(m.mesh, TissueConstants{}), alpha, beta));
+  const auto constants = effect_parameters(m, default_parameters(m), 0);
+  m.effects[0] = std::make_shared<Elasticity>(
+      m.mesh, TissueConstants{constants[0], constants[1], constants[2]}, true);
+  m.effects.push_back(std::make_shared<Viscosity>(m.tissue_mass, alpha, beta));
   m.finish();
 }
 

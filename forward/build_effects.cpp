@@ -144,7 +144,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> all = {
       {"elasticity",
        [](Settings& s, const Anatomy& a) -> Made {
-         return std::make_shared<Elasticity>(a.description.mesh, constants(s));
+         return std::make_shared<Elasticity>(a.description.mesh, constants(s),
+                                             a.description.effects.contains("viscosity"));
        }},
       {"muscles",
        [](Settings&, const Anatomy& a) -> Made { return std::make_shared<Muscles>(a.muscles); }},
@@ -222,9 +223,7 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"airway_pressure", airway_pressure},
       {"viscosity", [](Settings& s, const Anatomy& a) -> Made {
          const double alpha = s.take("alpha", 40), beta = s.take("beta", 0.03);
-         return std::make_shared<Viscosity>(
-             a.mass, std::make_shared<Elasticity>(a.description.mesh, TissueConstants{}), alpha,
-             beta);
+         return std::make_shared<Viscosity>(a.mass, alpha, beta);
        }}};
   return all;
 }

@@ -48,8 +48,9 @@ class Step {
   Vector residual(const Vector& u) {
     const State to = at(u);
     const Positions x = shape(u);
-    Forces f = force(model_, x, p_);
-    viscous_ = model_.dofs.reduce(viscous_force(model_, x, velocity(to), p_));
+    Forces viscous;
+    const Forces f = forces_in_motion(model_, x, velocity(to), p_, viscous);
+    viscous_ = model_.dofs.reduce(viscous);
     const Vector a = (1 - s_.alpha_m) * to.a + s_.alpha_m * from_.a;
     return model_.dofs.reduce(f - multiply(mass_, model_.dofs.expand(a))) + viscous_;
   }

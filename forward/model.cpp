@@ -151,10 +151,12 @@ double step_limit(const Model& model, const Positions& x, const Positions& along
   return t;
 }
 
-Forces viscous_force(const Model& model, const Positions& x, const Vector& v, const Parameters& p) {
+Forces forces_in_motion(const Model& model, const Positions& x, const Vector& v,
+                        const Parameters& p, Forces& viscous) {
   Forces f = Forces::Zero(x.size());
+  viscous = f;
   for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_viscous_force(x, v, effect_parameters(model, p, int(e)), f);
+    model.effects[e]->add_forces_in_motion(x, v, effect_parameters(model, p, int(e)), f, viscous);
   return f;
 }
 

@@ -95,8 +95,10 @@ void step_stiffness(const Model& model, const Positions& x, const Positions& pre
 /// Smallest of the effects' step limits.
 double step_limit(const Model& model, const Positions& x, const Positions& along,
                   const Parameters& p);
-/// Total viscous nodal forces at the velocities v [N].
-Forces viscous_force(const Model& model, const Positions& x, const Vector& v, const Parameters& p);
+/// Total nodal forces at the velocities v: those of the potential and, in `viscous`, those of the
+/// dissipation [N].
+Forces forces_in_motion(const Model& model, const Positions& x, const Vector& v,
+                        const Parameters& p, Forces& viscous);
 /// Adds the total damping, times `scale`, to `k`; `scratch` is overwritten.
 void add_damping(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
                  double scale, Stiffness& scratch, Stiffness& k);

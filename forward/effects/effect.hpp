@@ -74,6 +74,12 @@ class Effect {
   /// Adds d2R/dv2 [N s/m].
   virtual void add_damping(const Positions& /*x*/, const Vector& /*v*/, EffectParameters /*p*/,
                            Stiffness& /*c*/) const {}
+  /// add_force and add_viscous_force at once, for effects that can share work between them.
+  virtual void add_forces_in_motion(const Positions& x, const Vector& v, EffectParameters p,
+                                    Forces& f, Forces& viscous) const {
+    add_force(x, p, f);
+    add_viscous_force(x, v, p, viscous);
+  }
   /// Adds the derivative of the viscous force with respect to parameter k [N per unit].
   virtual void add_viscous_force_derivative(const Positions& /*x*/, const Vector& /*v*/,
                                             EffectParameters /*p*/, int /*k*/,

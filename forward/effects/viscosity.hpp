@@ -1,24 +1,21 @@
 #pragma once
 #include <array>
-#include <memory>
 
-#include "forward/effects/elasticity.hpp"
+#include "forward/effects/effect.hpp"
+#include "forward/mesh.hpp"
 
 namespace genio {
 
-/// Rayleigh damping, R = 1/2 v.(alpha M + beta K) v with the mass M of the tissue and the
-/// stiffness K of its elasticity in the shape x (the seed model's C = alpha M + beta K; Buchaillard
-/// et al. 2009: alpha 40 1/s, beta 0.03 s). It acts in dynamics only.
-/// Parameters: alpha [1/s], beta [s].
+/// Rayleigh damping, R = 1/2 v.(alpha M + beta K) v with the mass M of the tissue and the stiffness K
+/// of its elasticity in the shape x (the seed model's C = alpha M + beta K; Buchaillard et al. 2009:
+/// alpha 40 1/s, beta 0.03 s). It acts in dynamics only. The part with K is computed by Elasticity,
+/// which borrows beta. Parameters: alpha [1/s], beta [s].
 class Viscosity final : public Effect {
  public:
-  Viscosity(NodeMatrix mass, std::shared_ptr<const Elasticity> elasticity, double alpha, double beta);
+  Viscosity(NodeMatrix mass, double alpha, double beta);
 
   std::string_view name() const override { return "viscosity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
-  std::vector<std::string> borrows() const override {
-    return {"elasticity.a10", "elasticity.a20", "elasticity.kappa"};
-  }
   double energy(const Positions&, EffectParameters) const override { return 0; }
   void add_force(const Positions&, EffectParameters, Forces&) const override {}
   void add_stiffness(const Positions&, EffectParameters, Stiffness&) const override {}
@@ -34,7 +31,6 @@ class Viscosity final : public Effect {
 
  private:
   NodeMatrix mass_;
-  std::shared_ptr<const Elasticity> elasticity_;
   std::array<ParameterInfo, 2> info_;
 };
 
