@@ -16,12 +16,13 @@ using Progress = std::function<void(const std::string&)>;
 /// Static solves of the block in units of one factorisation, beside CalculiX where it is installed.
 Json forward(const Progress& progress);
 
-/// 120 ms of motion in 2 ms steps: the block, and GGP 2 N on the model at `model` and on the Grenoble
-/// tongue of `grenoble_folder` (may be empty), whole and half.
-Json dynamic(const std::string& model, const std::string& grenoble_folder, const Progress& progress);
+/// 120 ms of motion in 2 ms steps: the block, and GGP 2 N on the model at `model` and on the
+/// Grenoble tongue of `grenoble_folder` (may be empty), whole and half.
+Json dynamic(const std::string& model, const std::string& grenoble_folder,
+             const Progress& progress);
 
-/// Equilibria under `count` random force vectors up to half of every maximum, from rest, and once more
-/// from a neighbour; pairs of different equilibria for the same forces are listed.
+/// Equilibria under `count` random force vectors up to half of every maximum, from rest, and once
+/// more from a neighbour; pairs of different equilibria for the same forces are listed.
 Json robustness(const Model& model, int count, const Progress& progress);
 
 /// The verification's tables: manufactured solution, Cook's membrane, sphere, order in time, and

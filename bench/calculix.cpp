@@ -35,8 +35,8 @@ Support between(Support a, Support b) {
   return Support::free;
 }
 
-void write_nodes(fmt::ostream& out, const CalculixProblem& p, std::vector<std::vector<int>>& elements,
-                 std::vector<Support>& supports) {
+void write_nodes(fmt::ostream& out, const CalculixProblem& p,
+                 std::vector<std::vector<int>>& elements, std::vector<Support>& supports) {
   supports = p.supports;
   std::vector<Vec3> nodes = p.mesh.nodes;
   std::map<std::pair<int, int>, int> middle;
@@ -100,7 +100,8 @@ void write_input(const std::string& path, const CalculixProblem& p) {
   else out.print("*STATIC\n0.1,1.\n");
   const double size = p.force.norm();
   const Vec3 d = p.force / size;
-  out.print("*DLOAD\nLOADED,GRAV,{:.9g},{:.9g},{:.9g},{:.9g}\n", size / p.density, d[0], d[1], d[2]);
+  out.print("*DLOAD\nLOADED,GRAV,{:.9g},{:.9g},{:.9g},{:.9g}\n", size / p.density, d[0], d[1],
+            d[2]);
   out.print("*NODE PRINT,NSET=ALL,FREQUENCY=1000\nU\n*END STEP\n");
 }
 

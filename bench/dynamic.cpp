@@ -21,8 +21,8 @@ Json measure(const Model& m, const Parameters& p, int repeats, Trajectory& t) {
   }
   stiffness(m, m.rest, rest, ws.stiffness);
   ws.reduced.assign(ws.stiffness);
-  const double factor =
-      median_seconds(9, [&] { ws.cholesky.factorize(ws.reduced); }), wall = median(time);
+  const double factor = median_seconds(9, [&] { ws.cholesky.factorize(ws.reduced); }),
+               wall = median(time);
   return {{"status", t ? "converged" : "failed"},
           {"message", t.message},
           {"unknowns", m.dofs.unknowns()},
@@ -75,7 +75,8 @@ Json dynamic(const std::string& model, const std::string& grenoble_folder, const
     j["calculix_c3d8_top_centre_mm"] = {v[0], v[1], v[2]};
   }
   j["tongues"] = Json::array();
-  std::vector<std::pair<std::string, ModelDescription>> tongues = {{model, read_description(model)}};
+  std::vector<std::pair<std::string, ModelDescription>> tongues = {
+      {model, read_description(model)}};
   if (!grenoble_folder.empty())
     tongues.emplace_back(grenoble_folder, import_grenoble(grenoble_folder));
   for (const auto& [name, description] : tongues)

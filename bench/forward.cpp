@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "bench/benchmarks.hpp"
-#include "bench/calculix.hpp"
 #include "bench/block.hpp"
+#include "bench/calculix.hpp"
 #include "bench/clock.hpp"
 #include "forward/equilibrium.hpp"
 
@@ -44,7 +44,8 @@ Json measure(const Model& m, int repeats) {
     factor_s.push_back(median_seconds(5, [&] { ws->cholesky.factorize(ws->reduced); }));
     flops = ws->cholesky.flops();
   }
-  const double factor = median(factor_s), cold_median = median(cold_s), warm_median = median(warm_s);
+  const double factor = median(factor_s), cold_median = median(cold_s),
+               warm_median = median(warm_s);
   return {{"unknowns", m.dofs.unknowns()},
           {"elements", m.mesh.elements.size()},
           {"status", cold && warm ? "converged" : "failed"},

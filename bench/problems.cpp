@@ -25,8 +25,7 @@ void each_point(Act act) {
   const double weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 3; ++k)
-        act(Vec3(at[i], at[j], at[k]), weight[i] * weight[j] * weight[k]);
+      for (int k = 0; k < 3; ++k) act(Vec3(at[i], at[j], at[k]), weight[i] * weight[j] * weight[k]);
 }
 
 /// act(element, place, weight [m^3], shape function values) over a mesh.
@@ -120,7 +119,8 @@ double cook_corner(int n, double nu) {
   Mat3 shear = Mat3::Zero();
   shear(2, 0) = 62.5;
   Forces load = Forces::Zero(Eigen::Index(3 * mesh.nodes.size()));
-  add_traction(mesh, shear, [](const Vec3& x) { return x[0] > 0.048 - 1e-9; }, load);
+  add_traction(
+      mesh, shear, [](const Vec3& x) { return x[0] > 0.048 - 1e-9; }, load);
   const double a10 = 0.5 * 801.938;
   const Model m =
       tissue_problem(std::move(mesh), std::move(supports), {a10, 0, bulk_modulus(a10, nu)}, load);
@@ -191,11 +191,10 @@ double sphere_pressure_ratio(int n, int layers, double stretch) {
       for (int k = 0; k < layers; ++k)
         for (int j = 0; j < n; ++j)
           for (int i = 0; i < n; ++i)
-            mesh.elements.push_back({node(place(i, j, k)), node(place(i + 1, j, k)),
-                                     node(place(i + 1, j + 1, k)), node(place(i, j + 1, k)),
-                                     node(place(i, j, k + 1)), node(place(i + 1, j, k + 1)),
-                                     node(place(i + 1, j + 1, k + 1)),
-                                     node(place(i, j + 1, k + 1))});
+            mesh.elements.push_back(
+                {node(place(i, j, k)), node(place(i + 1, j, k)), node(place(i + 1, j + 1, k)),
+                 node(place(i, j + 1, k)), node(place(i, j, k + 1)), node(place(i + 1, j, k + 1)),
+                 node(place(i + 1, j + 1, k + 1)), node(place(i, j + 1, k + 1))});
     }
   std::vector<Support> supports;
   for (const Vec3& x : mesh.nodes)
@@ -218,7 +217,8 @@ double sphere_pressure_ratio(int n, int layers, double stretch) {
       push -= node_position(f, int(a)).dot(node_position(e.x, int(a)).normalized());
   const double radius = inner * stretch;
   const double pressure = push / (4 * std::numbers::pi * radius * radius);
-  // Balance: d sigma_r/dr = 2 (sigma_t - sigma_r)/r, sigma_t - sigma_r = 2 W' (l^2 - l^-4), l = r/R.
+  // Balance: d sigma_r/dr = 2 (sigma_t - sigma_r)/r, sigma_t - sigma_r = 2 W' (l^2 - l^-4), l =
+  // r/R.
   double exact = 0;
   const int steps = 2000;
   const double end = std::cbrt(outer * outer * outer + more), dr = (end - radius) / steps;

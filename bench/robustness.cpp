@@ -52,7 +52,8 @@ Json robustness(const Model& m, int count, const Progress& tell) {
     }
     ++converged;
     // Again from the equilibrium of forces 10 % smaller.
-    const Equilibrium near = solve_equilibrium(m, 0.9 * p + 0.1 * default_parameters(m), e.x, ws, options);
+    const Equilibrium near =
+        solve_equilibrium(m, 0.9 * p + 0.1 * default_parameters(m), e.x, ws, options);
     if (!near) continue;
     const Equilibrium again = solve_equilibrium(m, p, near.x, ws, options);
     if (!again) continue;

@@ -19,8 +19,7 @@ void add_traction(const HexMesh& mesh, const Mat3& stress, OnFace on_face, Force
       for (int a = 0; a < 4; ++a) g1 += q.by[a][0] * place(a), g2 += q.by[a][1] * place(a);
       const Vec3 area(g1[1] * g2[2] - g1[2] * g2[1], g1[2] * g2[0] - g1[0] * g2[2],
                       g1[0] * g2[1] - g1[1] * g2[0]);
-      for (int a = 0; a < 4; ++a)
-        f.segment<3>(3 * face[size_t(a)]) += q.value[a] * (stress * area);
+      for (int a = 0; a < 4; ++a) f.segment<3>(3 * face[size_t(a)]) += q.value[a] * (stress * area);
     }
   }
 }

@@ -23,10 +23,14 @@ Json manufactured_table(const Progress& tell) {
       for (const int n : {4, 8, 16}) {
         const double error = manufactured_error(n, nu, distortion);
         const double rate = before > 0 ? std::log2(before / error) : 0;
-        tell(fmt::format("manufactured  nu {:<6} distortion {:<4} n {:>2}: L2 error {:.3e}, rate {:.2f}",
-                         nu, distortion, n, error, rate));
-        rows.push_back({{"poisson_ratio", nu}, {"distortion", distortion}, {"n", n},
-                        {"relative_l2_error", error}, {"rate", rate}});
+        tell(fmt::format(
+            "manufactured  nu {:<6} distortion {:<4} n {:>2}: L2 error {:.3e}, rate {:.2f}", nu,
+            distortion, n, error, rate));
+        rows.push_back({{"poisson_ratio", nu},
+                        {"distortion", distortion},
+                        {"n", n},
+                        {"relative_l2_error", error},
+                        {"rate", rate}});
         before = error;
       }
     }
@@ -64,8 +68,9 @@ Json time_table(const Progress& tell) {
     p[parameter_index(m, "load.force")] = 0.2 * std::pow(std::sin(M_PI * i / 320), 4);
     load.times.push_back(1.25e-4 * i), load.values.push_back(p);
   }
-  for (const auto& [name, scheme] : {std::pair{"newmark", TimeScheme::newmark()},
-                                     {"generalised-alpha 0.5", TimeScheme::generalised_alpha(0.5)}}) {
+  for (const auto& [name, scheme] :
+       {std::pair{"newmark", TimeScheme::newmark()},
+        {"generalised-alpha 0.5", TimeScheme::generalised_alpha(0.5)}}) {
     const auto end = [&](double step) {
       TimeOptions o;
       o.duration = 0.04, o.step = step, o.scheme = scheme, o.tolerance = 1e-7;
@@ -81,7 +86,8 @@ Json time_table(const Progress& tell) {
       const double rate = before > 0 ? std::log2(before / error) : 0;
       tell(fmt::format("time          {:<22} step {:.1f} ms: error {:.3e}, rate {:.2f}", name,
                        1e3 * step, error, rate));
-      rows.push_back({{"scheme", name}, {"step_ms", 1e3 * step}, {"relative_error", error}, {"rate", rate}});
+      rows.push_back(
+          {{"scheme", name}, {"step_ms", 1e3 * step}, {"relative_error", error}, {"rate", rate}});
       before = error;
     }
   }
@@ -133,8 +139,7 @@ Json tongue_table(const std::string& folder, const Progress& tell) {
   std::vector<Support> supports = d.supports;
   for (int level = 0; level < 2; ++level) {
     Model m = tissue_problem(mesh, supports, c);
-    m.effects.push_back(
-        std::make_shared<Gravity>(tissue_mass(mesh, d.density), Vec3(0, 0, -9.81)));
+    m.effects.push_back(std::make_shared<Gravity>(tissue_mass(mesh, d.density), Vec3(0, 0, -9.81)));
     m.finish();
     const auto moved = [&](const Positions& x) {
       return Vec3(node_position(x, d.landmarks.tip) - node_position(m.rest, d.landmarks.tip));

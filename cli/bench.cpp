@@ -3,12 +3,13 @@
 #include "bench/benchmarks.hpp"
 #include "cli/commands.hpp"
 #include "forward/model_file.hpp"
+#include "report/verification_report.hpp"
 
 namespace genio::cli {
 namespace {
 
 struct BenchOptions {
-  std::string what, model = default_model(), data, target, palate;
+  std::string what, model = default_model(), data, target, palate, out;
   int sample = 500;
   bool json = false;
 };
@@ -27,6 +28,7 @@ int run(const BenchOptions& o) {
     j = bench::forward(tell);
   } else if (o.what == "verification") {
     j = bench::verification(o.data, tell);
+    if (!o.out.empty()) write_verification(j, o.out);
   } else if (o.what == "dynamic") {
     j = bench::dynamic(o.model, o.data, tell);
   } else {
@@ -46,14 +48,18 @@ int run(const BenchOptions& o) {
 
 Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
-  app.add_option("what", o->what, "forward, dynamic, robustness, verification, inverse, service, ultrasound, grenoble")
+  app.add_option(
+         "what", o->what,
+         "forward, dynamic, robustness, verification, inverse, service, ultrasound, grenoble")
       ->required()
-      ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse", "service", "ultrasound", "grenoble"}));
+      ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse",
+                             "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
   app.add_option("--data", o->data, "grenoble, dynamic, verification: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
   app.add_option("--sample", o->sample, "robustness: random force vectors")->capture_default_str();
+  app.add_option("--out", o->out, "verification: folder for its tables and plots");
   app.add_flag("--json", o->json, "One JSON object on standard output");
   app.footer("Example: genio bench inverse");
   return [o] { return run(*o); };

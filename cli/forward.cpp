@@ -15,9 +15,8 @@ namespace {
 
 /// Published results on this tongue.
 int run_suite(const ForwardOptions& o) {
-  const auto result =
-      seed_suite(read_description(o.model), o.model, o.out,
-                 [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  const auto result = seed_suite(read_description(o.model), o.model, o.out,
+                                 [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
   if (o.json) {
     fmt::print("{}\n", result.dump());
   } else {

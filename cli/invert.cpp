@@ -2,10 +2,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/measured.hpp"
-#include "report/motion_report.hpp"
 #include "forward/model_file.hpp"
 #include "inverse/frame_target.hpp"
 #include "inverse/infer.hpp"
+#include "report/motion_report.hpp"
 
 namespace genio::cli {
 namespace {

@@ -262,7 +262,8 @@ std::vector<Quad> outer_faces(const HexMesh& mesh, const std::vector<Support>& s
 std::vector<Quad> free_faces(const HexMesh& mesh, const std::vector<Support>& supports) {
   std::vector<Quad> faces = outer_faces(mesh, supports);
   std::erase_if(faces, [&](const Quad& f) {
-    return std::any_of(f.begin(), f.end(), [&](int n) { return !moves_freely(supports[size_t(n)]); });
+    return std::any_of(f.begin(), f.end(),
+                       [&](int n) { return !moves_freely(supports[size_t(n)]); });
   });
   return faces;
 }

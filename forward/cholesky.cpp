@@ -108,8 +108,8 @@ struct Cholesky::Impl {
 namespace {
 
 /// Nested dissection of the graph of groups, written out for unknowns.
-std::vector<int> dissected(const Eigen::SparseMatrix<double>& lower,
-                           const std::vector<int>& groups, cholmod_common& c) {
+std::vector<int> dissected(const Eigen::SparseMatrix<double>& lower, const std::vector<int>& groups,
+                           cholmod_common& c) {
   const int n = int(groups.size()) - 1;
   std::vector<int> group_of(size_t(groups.back()));
   for (int g = 0; g < n; ++g)
@@ -179,7 +179,8 @@ Vector Cholesky::precondition(const Vector& right_hand_side) const {
 double Cholesky::flops() const { return impl_->common.fl; }
 
 int Cholesky::iterations_per_factor() const {
-  // A solve does four operations an entry of L, at the pace of memory: a quarter of the arithmetic's.
+  // A solve does four operations an entry of L, at the pace of memory: a quarter of the
+  // arithmetic's.
   return int(impl_->common.fl / (4 * 4 * std::max(1.0, impl_->common.lnz)));
 }
 

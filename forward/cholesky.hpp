@@ -18,8 +18,8 @@ class ReducedStiffness {
   void assign(const Stiffness& k);
   Vector multiply(const Vector& v) const { return matrix_.selfadjointView<Eigen::Lower>() * v; }
   const Eigen::SparseMatrix<double>& lower() const { return matrix_; }
-  /// Runs of unknowns that belong together, a node's or a body's: the first unknown of each, and the
-  /// number of unknowns last. They share their couplings, so an ordering may treat each as one.
+  /// Runs of unknowns that belong together, a node's or a body's: the first unknown of each, and
+  /// the number of unknowns last. They share their couplings, so an ordering may treat each as one.
   const std::vector<int>& groups() const { return groups_; }
   double trace() const { return matrix_.diagonal().sum(); }
 

@@ -84,8 +84,7 @@ CurvedStep::CurvedStep(const HexMesh& mesh, const std::vector<Support>& supports
               k += batch.weight[q][l] * batch.gradient[q][a][j][l] * batch.gradient[q][b][j][l];
           const int na = batch.node[a][l], nb = batch.node[b][l];
           if (free_[na] < 0) continue;
-          if (free_[nb] >= 0 && free_[nb] <= free_[na])
-            inner.emplace_back(free_[na], free_[nb], k);
+          if (free_[nb] >= 0 && free_[nb] <= free_[na]) inner.emplace_back(free_[na], free_[nb], k);
           else if (free_[nb] >= 0) continue;
           else outer.emplace_back(free_[na], nb, k);
         }

@@ -12,8 +12,7 @@
 namespace genio {
 namespace {
 
-constexpr int patient_iterations = 6;   // on an old factor
-constexpr int most_iterations = 20;     // on a new one
+constexpr int most_iterations = 20;     // on one factor
 constexpr int most_order = 6;           // of the extrapolation from earlier steps
 constexpr double shortest_step = 1e-7;  // [s]
 
@@ -33,8 +32,7 @@ class Step {
 
   State at(const Vector& u) const {
     State to{from_.time + dt_, u, {}, {}, {}};
-    to.a = (u - from_.u - dt_ * from_.v) / (s_.beta * dt_ * dt_) -
-           (0.5 / s_.beta - 1) * from_.a;
+    to.a = (u - from_.u - dt_ * from_.v) / (s_.beta * dt_ * dt_) - (0.5 / s_.beta - 1) * from_.a;
     to.v = from_.v + dt_ * ((1 - s_.gamma) * from_.a + s_.gamma * to.a);
     return to;
   }
@@ -104,7 +102,7 @@ class Simulation {
   NodeMatrix mass_;
   Stiffness scratch_;
   InverseUpdates updates_;
-  double factor_step_ = 0;       // the step that the factor was made for; 0: none
+  double factor_step_ = 0;      // the step that the factor was made for; 0: none
   std::vector<State> history_;  // of equal steps
 };
 
@@ -147,19 +145,25 @@ bool Simulation::advance(const State& from, double dt, State& to, Trajectory& re
   }
   bool fresh = false;
   Vector r = step.residual(u);
-  for (int i = 0, since = 0; i < 3 * most_iterations; ++i, ++since) {
+  double first = r.norm();
+  // An iteration here, with its forces, is worth two of those that only solve.
+  const double worth = 0.6 * ws_.cholesky.iterations_per_factor();
+  for (int since = 0;; ++since) {
     ++result.newton_iterations;
-    const double before = r.norm();
-    if (before <= allowed) break;
-    if (!std::isfinite(before) || (fresh && since > most_iterations)) return false;
-    if (!fresh && since >= patient_iterations) {
+    const double now = r.norm();
+    if (now <= allowed) break;
+    if (!std::isfinite(now) || since > most_iterations) return false;
+    // A new factor where it is cheaper than the iterations that the old one still asks for.
+    const double rate = std::pow(now / first, 1.0 / std::max(1, since));
+    if (!fresh && since >= 2 && !(std::log(allowed / now) / std::log(rate) < worth && rate < 1)) {
       if (!step.factorize(u, scratch_, ws_)) return factor_step_ = 0, false;
       updates_.forget();
-      fresh = true, since = 0;
+      fresh = true, since = 0, first = now;
     }
     // The factor leaves out the 1 - alpha_f that forces at an earlier instant have.
-    const Vector d = updates_.apply(
-        r, [&](const Vector& b) -> Vector { return ws_.cholesky.precondition(b) / (1 - s.alpha_f); });
+    const Vector d = updates_.apply(r, [&](const Vector& b) -> Vector {
+      return ws_.cholesky.precondition(b) / (1 - s.alpha_f);
+    });
     double t = 1;
     Vector next;
     for (int halvings = 0; halvings < 4; ++halvings, t *= 0.5) {
@@ -171,7 +175,6 @@ bool Simulation::advance(const State& from, double dt, State& to, Trajectory& re
     u += t * d;
     r = next;
   }
-  if (!(r.norm() <= allowed)) return false;
   to = step.at(u);
   to.viscous = step.viscous();
   return true;
@@ -180,13 +183,8 @@ bool Simulation::advance(const State& from, double dt, State& to, Trajectory& re
 Instant Simulation::instant(const State& s) const {
   const Positions x = model_.rest + model_.dofs.expand(s.u);
   const Vector v = model_.dofs.expand(s.v);
-  return {s.time,
-          x,
-          v,
-          0.5 * v.dot(multiply(mass_, v)),
-          energy(model_, x, commands_.at(s.time)),
-          0,
-          0};
+  return {s.time, x, v, 0.5 * v.dot(multiply(mass_, v)), energy(model_, x, commands_.at(s.time)),
+          0,      0};
 }
 
 /// What viscous forces took, by their value in the middle of the step, and what changing parameters
@@ -194,7 +192,8 @@ Instant Simulation::instant(const State& s) const {
 void Simulation::record(const State& before, const State& after, Instant now,
                         Trajectory& result) const {
   const Instant& last = result.instants.back();
-  const double back = 0.5 - options_.scheme.alpha_f;  // from the instant of the forces to the middle
+  const double back =
+      0.5 - options_.scheme.alpha_f;  // from the instant of the forces to the middle
   const Vector viscous = (1 - back) * after.viscous + back * before.viscous;
   now.dissipated = last.dissipated - viscous.dot(after.u - before.u);
   const Parameters was = commands_.at(before.time), is = commands_.at(after.time);

@@ -9,16 +9,16 @@
 
 namespace genio {
 
-/// Which instant of a step the equation of motion is met at, and how displacement and velocity follow
-/// from acceleration.
+/// Which instant of a step the equation of motion is met at, and how displacement and velocity
+/// follow from acceleration.
 struct TimeScheme {
   double alpha_m = 0, alpha_f = 0;  ///< inertia at t_{n+1-alpha_m}, forces at t_{n+1-alpha_f}
   double beta = 0.25, gamma = 0.5;
 
   /// The trapezoidal rule (Newmark 1959): second order, no dissipation of its own.
   static TimeScheme newmark() { return {}; }
-  /// Second order, waves too fast for the step shrink by `spectral_radius` each step (Chung & Hulbert
-  /// 1993, eqs. 17 and 25); 0 to 1.
+  /// Second order, waves too fast for the step shrink by `spectral_radius` each step (Chung &
+  /// Hulbert 1993, eqs. 17 and 25); 0 to 1.
   static TimeScheme generalised_alpha(double spectral_radius);
 };
 
@@ -53,8 +53,8 @@ struct Trajectory {
 };
 
 /// Motion from rest in the shape `start`. Each step is solved by quasi-Newton iterations (BFGS,
-/// Matthies & Strang 1979) on a factor that is renewed only when they get slow, over as many steps as
-/// it will serve.
+/// Matthies & Strang 1979) on a factor that is renewed only when they get slow, over as many steps
+/// as it will serve.
 Trajectory simulate(const Model& model, const CommandsOverTime& commands, const Positions& start,
                     Workspace& ws, const TimeOptions& options = {});
 

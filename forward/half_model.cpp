@@ -25,9 +25,10 @@ std::vector<int> right_half(const HexMesh& mesh, const std::string& source, HexM
       right += y > on_plane, left += y < -on_plane;
     }
     if (right > 0 && left > 0)
-      throw InputError(fmt::format("{}: element {} crosses the midsagittal plane y = 0; half a "
-                                   "tongue needs nodes on it",
-                                   source, e));
+      throw InputError(
+          fmt::format("{}: element {} crosses the midsagittal plane y = 0; half a "
+                      "tongue needs nodes on it",
+                      source, e));
   }
   return number;
 }
@@ -50,9 +51,10 @@ ModelDescription half_of(const ModelDescription& whole, const std::string& sourc
     d.mesh.elements.push_back(nodes);
   }
   if (2 * d.mesh.elements.size() != whole.mesh.elements.size())
-    throw InputError(fmt::format("{}: {} of {} elements lie right of the midsagittal plane; half a "
-                                 "tongue needs two equal halves",
-                                 source, d.mesh.elements.size(), whole.mesh.elements.size()));
+    throw InputError(
+        fmt::format("{}: {} of {} elements lie right of the midsagittal plane; half a "
+                    "tongue needs two equal halves",
+                    source, d.mesh.elements.size(), whole.mesh.elements.size()));
   d.supports.clear();
   for (size_t a = 0; a < whole.mesh.nodes.size(); ++a) {
     if (number[a] < 0) continue;

@@ -15,7 +15,7 @@ inline Lane inverse_two_thirds(Lane v) {
   // Reading a double's bits as an integer is nearly linear in its logarithm.
   constexpr double one = 4607182418800017408.0;  // bits of 1.0
   const Lane logarithm = __builtin_convertvector((Bits)v, Lane) - one;
-  Lane r = (Lane)__builtin_convertvector(one - (2.0 / 3.0) * logarithm, Bits);
+  Lane r = (Lane) __builtin_convertvector(one - (2.0 / 3.0) * logarithm, Bits);
   const Lane v2 = v * v;
   for (int i = 0; i < 5; ++i) r *= (4.0 - v2 * r * r * r) * (1.0 / 3.0);
   return r;

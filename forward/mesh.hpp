@@ -1,11 +1,10 @@
 #pragma once
 // Hexahedral meshes: geometry questions, no mechanics.
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <string>
 #include <vector>
-
-#include <Eigen/SparseCore>
 
 #include "forward/types.hpp"
 

@@ -115,10 +115,10 @@ class Newton {
     Vector r = b, z = ws_.cholesky.precondition(r), p = z;
     double rz = r.dot(z);
     const double whole = rz, target = accuracy * accuracy * rz;
-    const int patience = std::clamp(ws_.cholesky.iterations_per_factor(), 12, 120);
+    const int patience = std::clamp(ws_.cholesky.iterations_per_factor(), 20, 30);
     for (int i = 0; i < patience; ++i) {
-      const Vector kp = model_.dofs.reduce(ws_.stiffness.multiply(model_.dofs.expand(p))) +
-                        spring_ * mean_ * p;
+      const Vector kp =
+          model_.dofs.reduce(ws_.stiffness.multiply(model_.dofs.expand(p))) + spring_ * mean_ * p;
       const double curvature = p.dot(kp);
       if (!(curvature > 0)) return false;
       const double step = rz / curvature;

@@ -9,7 +9,8 @@ DofMap::DofMap(const std::vector<Support>& supports) : index_(3 * supports.size(
       if (supports[a] == Support::free || supports[a] == Support::led || partly)
         index_[3 * a + i] = unknowns_++;
     }
-  for (const auto& [kind, axes] : {std::pair{Support::horizontal, 2}, {Support::body, 3}, {Support::forward, 1}}) {
+  for (const auto& [kind, axes] :
+       {std::pair{Support::horizontal, 2}, {Support::body, 3}, {Support::forward, 1}}) {
     int body = -1;
     for (size_t a = 0; a < supports.size(); ++a) {
       if (supports[a] != kind) continue;

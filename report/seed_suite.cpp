@@ -40,9 +40,7 @@ const std::vector<Row>& rows() {
        {{"GGA", 0.5}},
        {{"tip_dz_mm", "slightly down", words_only, -1},
         {"groove_mm", "groove behind the tip", words_only, 1}}},
-      {"HG",
-       {{"HG", 1}},
-       {{"rear_down_mm", "12", 12, 1}, {"rear_back_mm", "back", words_only, 1}}},
+      {"HG", {{"HG", 1}}, {{"rear_down_mm", "12", 12, 1}, {"rear_back_mm", "back", words_only, 1}}},
       {"STY",
        {{"STY", 1}},
        {{"dorsum_up_mm", "up", words_only, 1},
@@ -156,7 +154,8 @@ Json styloglossus(const ModelDescription& tongue, const std::string& source,
     if (effect->name() == "muscles") effect = std::make_shared<Muscles>(seed.muscles);
   seed.finish();
   Json j;
-  for (const auto& [name, model] : {std::pair<const char*, const Model*>{"concentrated", &seed}, {"distributed", &ours}}) {
+  for (const auto& [name, model] :
+       {std::pair<const char*, const Model*>{"concentrated", &seed}, {"distributed", &ours}}) {
     Parameters p = default_parameters(*model);
     set_command(*model, "STY", 2, p);
     Workspace ws(*model);
@@ -183,9 +182,10 @@ Json seed_suite(const ModelDescription& tongue, const std::string& source,
       "row,law,forces,contact,status,rear_forward_mm,rear_back_mm,rear_down_mm,dorsum_up_mm,"
       "tip_dx_mm,tip_dz_mm,groove_mm,volume_percent,penetration_mm,message\n";
   for (const bool cadaver : {true, false})
-    for (const auto& [contact, palate, jaw] :
-         {std::tuple{"off", false, false}, {"palate", true, false}, {"jaw", false, true},
-          {"both", true, true}}) {
+    for (const auto& [contact, palate, jaw] : {std::tuple{"off", false, false},
+                                               {"palate", true, false},
+                                               {"jaw", false, true},
+                                               {"both", true, true}}) {
       const Model m = variant(tongue, source, cadaver, palate, jaw);
       Workspace ws(m);
       for (const bool per_side : {true, false})
@@ -206,7 +206,8 @@ Json seed_suite(const ModelDescription& tongue, const std::string& source,
           if (e) {
             const auto moved = measures(m, e.x);
             for (const auto& [name, value] : moved) j[name] = value;
-            j["volume_percent"] = 100 * (mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest) - 1);
+            j["volume_percent"] =
+                100 * (mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest) - 1);
             j["max_penetration_mm"] = 1e3 * max_penetration(m, e.x, p);
             j["paper"] = compared(row, moved);
             for (const Json& c : j["paper"])

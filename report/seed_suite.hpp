@@ -11,9 +11,10 @@
 namespace genio {
 
 /// The paper's five rows with the cadaver and the living constants, its forces read per side and in
-/// all, contact off, with the palate, with the jaw (which carries the lower incisors) and with both:
-/// what moved, beside what the paper prints; and how sharp the styloglossus' edges are. Writes
-/// suite.json, suite.csv and pictures into `folder` unless that is empty. One line a row to `tell`.
+/// all, contact off, with the palate, with the jaw (which carries the lower incisors) and with
+/// both: what moved, beside what the paper prints; and how sharp the styloglossus' edges are.
+/// Writes suite.json, suite.csv and pictures into `folder` unless that is empty. One line a row to
+/// `tell`.
 nlohmann::json seed_suite(const ModelDescription& tongue, const std::string& source,
                           const std::string& folder,
                           const std::function<void(const std::string&)>& tell);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <librsvg/rsvg.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -50,13 +51,17 @@ void Svg::circle(double x, double y, double r, const Style& s) {
 }
 
 void Svg::polyline(const Axes& axes, const std::vector<Eigen::Vector2d>& points, const Style& s) {
-  // A picture within the picture ends at the frame of its axes.
-  body_ += fmt::format(
-      "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">"
-      "<polyline stroke-linejoin=\"round\" points=\"",
-      axes.left, axes.top, axes.width, axes.height);
-  for (const auto& p : points) body_ += fmt::format("{:.2f},{:.2f} ", axes.px(p[0]), axes.py(p[1]));
-  body_ += fmt::format("\" {}/></svg>\n", attributes(s));
+  // What would leave the frame is put in a picture within the picture, which ends there.
+  const bool inside = std::all_of(points.begin(), points.end(), [&](const Eigen::Vector2d& p) {
+    return p[0] >= axes.x0 && p[0] <= axes.x1 && p[1] >= axes.y0 && p[1] <= axes.y1;
+  });
+  if (!inside)
+    body_ += fmt::format(
+        "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">",
+        axes.left, axes.top, axes.width, axes.height);
+  body_ += "<polyline stroke-linejoin=\"round\" points=\"";
+  for (const auto& p : points) body_ += fmt::format("{:.1f},{:.1f} ", axes.px(p[0]), axes.py(p[1]));
+  body_ += fmt::format("\" {}/>{}\n", attributes(s), inside ? "" : "</svg>");
 }
 
 void Svg::text(double x, double y, const std::string& words, double size, const std::string& anchor,

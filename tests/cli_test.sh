@@ -26,6 +26,15 @@ expect 2 'did you mean GGP' "$genio" forward --force GPG=2
 expect 2 'above the muscle' "$genio" forward --force GGP=500
 expect 2 'expected NAME=NUMBER' "$genio" forward --force GGP=nan
 expect 2 'did you mean z' "$genio" forward --effect gravity.z=-9.81 --effect gravity.zz=1
+expect 0 '"rise_time_s"' "$genio" forward --dynamic --force GGP=2 --duration 0.01 --json --out motion
+[ -s motion/motion.pvd ] && [ "$(wc -l <motion/landmarks.csv)" -gt 5 ] || { echo "FAILED: no motion"; failed=1; }
+printf 'time_s,GGP_N\n0,0\n0.01,2\n' >commands.csv
+expect 0 '"steps":5' "$genio" forward --dynamic --commands commands.csv --duration 0.01 --json
+expect 2 'not together' "$genio" forward --dynamic --commands commands.csv --force GGP=1
+expect 2 'expected a header' "$genio" forward --dynamic --commands "$example"
+expect 0 'converged' "$genio" forward --effect jaw_opening.angle=4 --json
+expect 2 'expected -5 to 40 deg' "$genio" forward --effect jaw_opening.angle=400
+expect 2 'did you mean' "$genio" forward --effect jaw_openning.angle=4
 expect 2 'no such model file' "$genio" info --model nowhere
 expect 0 '"verdict":"explained"' "$genio" invert --target "$example" --json --out results
 for kind in svg png csv json vtu; do

@@ -13,8 +13,8 @@ struct TissueConstants {
 
 /// Passive tissue: the same Yeoh law everywhere (batch_energy). Parameters: a10, a20, kappa [Pa].
 ///
-/// Where a viscosity effect is present, its part that goes with the stiffness is carried here, next to
-/// the kernels: R = 1/2 beta v.K(x) v with its parameter beta [s], borrowed.
+/// Where a viscosity effect is present, its part that goes with the stiffness is carried here, next
+/// to the kernels: R = 1/2 beta v.K(x) v with its parameter beta [s], borrowed.
 class Elasticity final : public TissueEffect {
  public:
   Elasticity(const HexMesh& mesh, const TissueConstants& constants, bool viscous = false);

@@ -6,10 +6,10 @@
 
 namespace genio {
 
-/// Rayleigh damping, R = 1/2 v.(alpha M + beta K) v with the mass M of the tissue and the stiffness K
-/// of its elasticity in the shape x (the seed model's C = alpha M + beta K; Buchaillard et al. 2009:
-/// alpha 40 1/s, beta 0.03 s). It acts in dynamics only. The part with K is computed by Elasticity,
-/// which borrows beta. Parameters: alpha [1/s], beta [s].
+/// Rayleigh damping, R = 1/2 v.(alpha M + beta K) v with the mass M of the tissue and the stiffness
+/// K of its elasticity in the shape x (the seed model's C = alpha M + beta K; Buchaillard et al.
+/// 2009: alpha 40 1/s, beta 0.03 s). It acts in dynamics only. The part with K is computed by
+/// Elasticity, which borrows beta. Parameters: alpha [1/s], beta [s].
 class Viscosity final : public Effect {
  public:
   Viscosity(NodeMatrix mass, double alpha, double beta);

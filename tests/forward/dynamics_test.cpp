@@ -102,7 +102,8 @@ struct Bar {
     Forces load = Forces::Zero(Eigen::Index(3 * mesh.nodes.size()));
     Mat3 pull = Mat3::Zero();
     pull(0, 0) = 1;
-    bench::add_traction(mesh, pull, [](const Vec3& x) { return x[0] > length - 1e-9; }, load);
+    bench::add_traction(
+        mesh, pull, [](const Vec3& x) { return x[0] > length - 1e-9; }, load);
     m = bench::tissue_problem(mesh, supports, {1037, 486, 1037e3}, load, 10);  // 0.16 %
     bench::damp(m, alpha, beta);
     Workspace ws(m);

@@ -12,7 +12,8 @@ namespace {
 
 TEST(HalfModel, TakesTheShapeOfTheWhole) {
   const ModelDescription whole = read_description(test::generic_model());
-  const Model m = build_model(whole, "generic"), half = build_model(half_of(whole, "generic"), "half");
+  const Model m = build_model(whole, "generic"),
+              half = build_model(half_of(whole, "generic"), "half");
   for (const auto& forces : {std::vector<std::pair<std::string, double>>{{"GGP", 3}, {"SL", 0.6}},
                              {{"HG", 4}, {"TRANS", 1}},
                              {{"GGP", 14}, {"STY", 8}}}) {  // meets the palate
@@ -26,8 +27,10 @@ TEST(HalfModel, TakesTheShapeOfTheWhole) {
     ASSERT_TRUE(one) << one.message;
     EXPECT_EQ(max_penetration(m, both.x, p) > 1e-6, max_penetration(half, one.x, q) > 1e-6);
     for (size_t i = 0; i < m.midsagittal.size(); ++i)
-      EXPECT_LT((node_position(both.x, m.midsagittal[i]) -
-                 node_position(one.x, half.midsagittal[i])).norm(), 2e-5);
+      EXPECT_LT(
+          (node_position(both.x, m.midsagittal[i]) - node_position(one.x, half.midsagittal[i]))
+              .norm(),
+          2e-5);
   }
 }
 

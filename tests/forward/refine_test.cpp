@@ -26,7 +26,8 @@ TEST(Refine, HoldsOnlyWhatLiesBetweenHeldNodes) {
   const RefinedMesh r = refined(d.mesh, d.supports);
   int fixed = 0, hyoid = 0;
   for (Support s : r.supports) fixed += s == Support::fixed, hyoid += s == Support::horizontal;
-  // Bottom: 4 x 3 nodes become 7 x 5; its last row of 3 is the hyoid's. Between the two kinds: hyoid.
+  // Bottom: 4 x 3 nodes become 7 x 5; its last row of 3 is the hyoid's. Between the two kinds:
+  // hyoid.
   EXPECT_EQ(fixed + hyoid, 35);
   EXPECT_EQ(hyoid, 10);
 }

@@ -43,7 +43,7 @@ TEST_P(Patch, DisplacementDrivenDistortedHexahedraReproduceAffineMaps) {
   std::vector<Support> supports;
   for (const Vec3& x : mesh.nodes)
     supports.push_back(x.minCoeff() > 1e-9 && x.maxCoeff() < side - 1e-9 ? Support::free
-                                                                        : Support::fixed);
+                                                                         : Support::fixed);
   const Model m = bench::tissue_problem(std::move(mesh), supports, c);
   Mat3 f;
   f << 1.2, 0.3, -0.1, 0.05, 0.9, 0.2, 0.1, -0.15, 1.0;
@@ -72,7 +72,8 @@ void expect_stretches(const Vec3& stretch, const TissueConstants& c, double tole
   const Mat3 stress = bench::first_piola(f, c);
   Forces load = Forces::Zero(Eigen::Index(3 * mesh.nodes.size()));
   for (int i = 0; i < 3; ++i)
-    bench::add_traction(mesh, stress, [&](const Vec3& x) { return x[i] > side - 1e-9; }, load);
+    bench::add_traction(
+        mesh, stress, [&](const Vec3& x) { return x[i] > side - 1e-9; }, load);
   const Model m = bench::tissue_problem(std::move(mesh), supports, c, load);
   Workspace ws(m);
   const auto e = solve_equilibrium(m, default_parameters(m), m.rest, ws);
@@ -98,8 +99,7 @@ TEST(Yeoh, UniaxialAndEquibiaxialStressAreTheIncompressibleOnes) {
       // The lateral stretch that frees the sides of our nearly incompressible law.
       double free = biaxial ? 1 / (l * l) : 1 / std::sqrt(l);
       const auto stress = [&](double s) {
-        return bench::first_piola(
-            Mat3((biaxial ? Vec3(l, l, s) : Vec3(l, s, s)).asDiagonal()), c);
+        return bench::first_piola(Mat3((biaxial ? Vec3(l, l, s) : Vec3(l, s, s)).asDiagonal()), c);
       };
       for (int i = 0; i < 20; ++i) {
         const double h = 1e-7;

@@ -1,0 +1,10 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace genio {
+
+/// Writes the verification's tables (verification.json) and their plots as SVG into `folder`.
+void write_verification(const nlohmann::json& tables, const std::string& folder);
+
+}  // namespace genio
