@@ -27,9 +27,10 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
   double t = 1, springs = 0;
   for (int i = 0; i <= options.max_iterations; ++i) {
     const Vector r = newton.residual(x);
-    result.residual = r.norm() / newton.reference(x);
+    const double reference = newton.reference(x);
+    result.residual = r.norm() / reference;
     result.energy = newton.potential(x);
-    if (result.residual <= options.tolerance) {
+    if (result.residual <= std::max(options.tolerance, newton.rounding(x) / reference)) {
       result.status = SolveStatus::converged;
       result.message.clear();
       return;

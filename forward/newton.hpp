@@ -27,6 +27,14 @@ class Newton {
 
   double reference(const Positions& x) const { return load_size(model_, x, p_); }
 
+  /// What rounding of positions alone leaves of the residual [N]: stiff springs make it large. 0
+  /// before the first tangent.
+  double rounding(const Positions& x) const {
+    if (mean_ == 0) return 0;
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    return epsilon * ws_.reduced.lower().diagonal().cwiseProduct(model_.dofs.pick(x)).norm();
+  }
+
   /// The tangent for a step from x, itself reached from `previous` by following the linear `step`.
   void assemble(const Positions& x, const Positions& previous, const Vector& step) {
     step_stiffness(model_, x, previous, step, p_, ws_.stiffness);

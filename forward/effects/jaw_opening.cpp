@@ -3,7 +3,7 @@
 namespace genio {
 namespace {
 
-constexpr double spring = 1e6;  // [N/m]
+constexpr double spring = 1e5;  // [N/m]
 
 }  // namespace
 

@@ -8,7 +8,7 @@ namespace genio {
 
 /// The jaw opens: every node that is fixed to it is led along its JawMotion.
 ///
-/// E = 1/2 k sum_a |x_a - X_a(angle, slide)|^2 with k = 1e6 N/m a node, stiff enough to stay within
+/// E = 1/2 k sum_a |x_a - X_a(angle, slide)|^2 with k = 1e5 N/m a node, stiff enough to stay within
 /// some micrometres of the path, so that the path is a parameter like any other.
 /// Parameters: angle [deg], slide [m].
 class JawOpening final : public Effect {

@@ -35,6 +35,23 @@ TEST(Equilibrium, KeepsTheVolumeAndMidsagittalSymmetry) {
   EXPECT_LT(max_penetration(m, e.x, e.parameters), 1e-4);
 }
 
+TEST(Equilibrium, FollowsAnOpeningJawWithoutLoads) {
+  ModelDescription d = read_description(test::generic_model());
+  for (const double angle : {0.0, 1.0, 4.0, 12.0}) {
+    d.effects["jaw_opening"] = {{"angle", angle}, {"slide", 1e-4 * angle}};
+    const Model m = build_model(d, "generic");
+    Workspace ws(m);
+    const auto e = solve_equilibrium(m, default_parameters(m), m.rest, ws);
+    ASSERT_TRUE(e) << angle << ": " << e.message;
+    EXPECT_EQ(e.load_steps, 0) << angle;
+    if (angle == 0) {
+      EXPECT_LT((e.x - m.rest).cwiseAbs().maxCoeff(), 1e-9);
+      continue;
+    }
+    EXPECT_LT(e.x[3 * m.landmarks.tip + 2] - m.rest[3 * m.landmarks.tip + 2], -5e-4 * angle);
+  }
+}
+
 TEST(Equilibrium, FailureIsAStatusWithAReason) {
   const Model m = test::small_model();
   Workspace ws(m);
