@@ -11,6 +11,8 @@
 #include <map>
 #include <sstream>
 
+#include "forward/refine.hpp"
+
 namespace genio::bench {
 namespace {
 
@@ -27,14 +29,6 @@ double children_cpu() {
          1e-6 * double(u.ru_utime.tv_usec + u.ru_stime.tv_usec);
 }
 
-/// Which support a new node in the middle of an edge has: what both ends share.
-Support between(Support a, Support b) {
-  if (a == b) return a;
-  if (a == Support::fixed && b != Support::free) return b;
-  if (b == Support::fixed && a != Support::free) return a;
-  return Support::free;
-}
-
 void write_nodes(fmt::ostream& out, const CalculixProblem& p,
                  std::vector<std::vector<int>>& elements, std::vector<Support>& supports) {
   supports = p.supports;
@@ -48,7 +42,7 @@ void write_nodes(fmt::ostream& out, const CalculixProblem& p,
       const auto [it, added] = middle.emplace(std::minmax(a, b), int(nodes.size()));
       if (added) {
         nodes.push_back(0.5 * (nodes[size_t(a)] + nodes[size_t(b)]));
-        supports.push_back(between(supports[size_t(a)], supports[size_t(b)]));
+        supports.push_back(support_between({supports[size_t(a)], supports[size_t(b)]}));
       }
       element.push_back(it->second);
     }

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "bench/benchmarks.hpp"
+#include "bench/clock.hpp"
 #include "forward/equilibrium.hpp"
 #include "forward/import_grenoble.hpp"
 
@@ -52,17 +52,16 @@ Equilibrium solve(const Model& m, const Case& c) {
 }
 
 Json describe(const Model& m, const Case& c, bool contact, const Progress& progress) {
-  const auto start = std::chrono::steady_clock::now();
-  const Equilibrium e = solve(m, c);
-  Json j = {
-      {"law", c.law},
-      {"muscle", c.muscle},
-      {"force_N", c.newtons},
-      {"contact", contact},
-      {"status", e ? "converged" : "failed"},
-      {"message", e.message},
-      {"factorizations", e.factorizations},
-      {"wall_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
+  Equilibrium e;
+  const double wall = seconds([&] { e = solve(m, c); });
+  Json j = {{"law", c.law},
+            {"muscle", c.muscle},
+            {"force_N", c.newtons},
+            {"contact", contact},
+            {"status", e ? "converged" : "failed"},
+            {"message", e.message},
+            {"factorizations", e.factorizations},
+            {"wall_s", wall}};
   std::string line = fmt::format("{:<8} {:<4} {} N contact {:<4}", c.law, c.muscle, c.newtons,
                                  contact ? "on" : "off");
   if (e) {

@@ -230,8 +230,4 @@ double sphere_pressure_ratio(int n, int layers, double stretch) {
   return pressure / exact;
 }
 
-HexMesh bar_mesh(double length, double width, int along, int across) {
-  return box_mesh(Vec3(length, width, width), {along, across, across});
-}
-
 }  // namespace genio::bench

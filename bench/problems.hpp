@@ -39,9 +39,6 @@ double manufactured_error(int n, double poisson_ratio, double distortion);
 /// law (Green & Zerna 1954; by quadrature). NaN where not solved.
 double sphere_pressure_ratio(int n, int layers, double stretch);
 
-/// Longitudinal bar, clamped at one end: nodes along x, `length` [m], square section `width` [m].
-HexMesh bar_mesh(double length, double width, int along, int across);
-
 }  // namespace genio::bench
 
 #include "bench/traction.hpp"

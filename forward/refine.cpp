@@ -6,11 +6,8 @@
 #include "forward/hex8.hpp"
 
 namespace genio {
-namespace {
 
-/// What nodes that lie between others have in common. A node between the jaw and another support
-/// goes with the other; between any support and a free node it is free.
-Support common(const std::vector<Support>& parents) {
+Support support_between(const std::vector<Support>& parents) {
   Support s = parents[0];
   for (Support other : parents) {
     if (other == s) continue;
@@ -19,8 +16,6 @@ Support common(const std::vector<Support>& parents) {
   }
   return s;
 }
-
-}  // namespace
 
 RefinedMesh refined(const HexMesh& mesh, const std::vector<Support>& supports) {
   RefinedMesh r{{mesh.nodes, {}}, supports};
@@ -47,7 +42,7 @@ RefinedMesh refined(const HexMesh& mesh, const std::vector<Support>& supports) {
         std::vector<Support> kinds;
         for (int a : parents) x += mesh.nodes[size_t(a)], kinds.push_back(supports[size_t(a)]);
         r.mesh.nodes.push_back(x / double(parents.size()));
-        r.supports.push_back(common(kinds));
+        r.supports.push_back(support_between(kinds));
       }
       grid[size_t(n)] = it->second;
     }

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "bench/problems.hpp"
+#include "forward/box_mesh.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {
@@ -95,7 +96,7 @@ struct Bar {
   std::vector<double> time, end;
 
   Bar(double alpha, double beta, double duration) {
-    HexMesh mesh = bench::bar_mesh(length, width, 30, 1);
+    HexMesh mesh = box_mesh(Vec3(length, width, width), {30, 1, 1});
     std::vector<Support> supports;
     for (const Vec3& x : mesh.nodes)  // clamped where it may still thin: a bar without ends
       supports.push_back(held_along(x[0] < 1e-9, x[1] < 1e-9, x[2] < 1e-9));
