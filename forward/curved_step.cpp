@@ -41,14 +41,11 @@ void exponential(const Lane33& a, Lane33& e) {
 }
 
 void invert(const Lane33& f, Lane33& inverse) {
+  Lane33 c;
+  lanes::cofactors(f, c);
+  const Lane det = f[0][0] * c[0][0] + f[0][1] * c[0][1] + f[0][2] * c[0][2];
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      inverse[j][i] = f[i1][j1] * f[i2][j2] - f[i1][j2] * f[i2][j1];
-    }
-  const Lane det = f[0][0] * inverse[0][0] + f[0][1] * inverse[1][0] + f[0][2] * inverse[2][0];
-  for (auto& row : inverse)
-    for (Lane& v : row) v /= det;
+    for (int j = 0; j < 3; ++j) inverse[j][i] = c[i][j] / det;
 }
 
 /// F and the velocity gradient grad(step) F^-1 of a batch at its Gauss points.

@@ -60,8 +60,9 @@ class Step {
     stiffness(model_, x, p_, ws.stiffness);
     add_damping(model_, x, velocity(at(u)), p_, s_.gamma / (s_.beta * dt_), scratch, ws.stiffness);
     ws.stiffness.add(mass_, (1 - s_.alpha_m) / ((1 - s_.alpha_f) * s_.beta * dt_ * dt_));
-    ws.reduced.assign(ws.stiffness);
-    return ws.cholesky.factorize(ws.reduced);
+    const bool done = ws.factorize(model_, x, p_);
+    ws.mixed.forget();  // not the bulk of a static stiffness: no start for a static solve
+    return done;
   }
 
  private:

@@ -20,16 +20,16 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
   Newton newton(model, result.parameters, ws, options.max_factorizations);
   Positions& x = result.x;
   result.status = SolveStatus::failed;
-  if (!std::isfinite(newton.potential(x))) {
+  MixedState state = newton.at(x), reached;
+  if (!std::isfinite(state.energy)) {
     result.message = "the start shape has inverted tissue";
     return;
   }
   double t = 1, springs = 0;
   for (int i = 0; i <= options.max_iterations; ++i) {
-    const Vector r = newton.residual(x);
     const double reference = newton.reference(x);
-    result.residual = r.norm() / reference;
-    result.energy = newton.potential(x);
+    result.residual = state.force.norm() / reference;
+    result.energy = state.energy;
     if (result.residual <= std::max(options.tolerance, newton.rounding(x) / reference)) {
       result.status = SolveStatus::converged;
       result.message.clear();
@@ -42,33 +42,32 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
     }
     const double accuracy = std::clamp(0.3 * result.residual, 1e-3, 0.05);
     newton.set_springs(springs);
-    newton.assemble(x);
-    Vector d = newton.direction(r, accuracy);
+    newton.assemble(state);
+    MixedVector d = newton.direction(state, accuracy);
     ++result.newton_iterations;
-    Positions y;
     bool advanced = false;
     if (springs == 0) {
-      const Vector along = model.dofs.expand(d);
+      const Vector along = model.dofs.expand(d.u);
       t = std::min({t, step_limit(model, x, along, result.parameters),
                     longest_stage / ws.curved.size(x, along)});
       for (int tries = 0; tries < stage_tries && t > shortest_stage && newton.shift() == 0;
            ++tries, t *= 0.4) {
-        advanced = newton.stage(x, r, d, t, t == 1 ? 1e-4 : 3e-2, y, result.newton_iterations);
+        advanced = newton.stage(state, d, t, t == 1 ? 1e-4 : 3e-2, reached, result.newton_iterations);
         if (advanced) break;
-        if (!ws.cholesky.valid()) newton.assemble(x), d = newton.direction(r, accuracy);
+        if (!ws.cholesky.valid()) newton.assemble(state), d = newton.direction(state, accuracy);
       }
       if (advanced) t = std::min(1.0, 3 * t);
       else springs = std::max(1e-3, 2 * newton.shift()), t = 1;
     } else if (newton.shift() > 0) {
       springs = std::max(8 * springs, 2 * newton.shift());
     } else {
-      const bool settled = newton.stage(x, r, d, 1, 1e-2, y, result.newton_iterations);
+      const bool settled = newton.stage(state, d, 1, 1e-2, reached, result.newton_iterations);
       // A way down is welcome even where the stage has not settled.
-      advanced = settled || newton.potential(y) < result.energy;
+      advanced = settled || newton.potential(reached.x) < result.energy;
       springs *= settled ? 0.25 : advanced ? 2 : 8;
       if (springs < 1e-5) springs = 0;
     }
-    if (advanced) x = y;
+    if (advanced) x = reached.x, state = newton.at(x, std::move(reached.pressure));
     else if (springs > 1e3) {
       if (result.residual < 100 * options.tolerance) {  // rounding is what is left
         result.status = SolveStatus::converged;
@@ -86,8 +85,9 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
 /// Length of the longest nodal displacement of the Newton step from x [m].
 double step_length(const Model& model, const Parameters& p, const Positions& x, Workspace& ws) {
   Newton newton(model, p, ws);
-  newton.assemble(x);
-  const Vector d = model.dofs.expand(newton.direction(newton.residual(x), 0.1));
+  const MixedState state = newton.at(x);
+  newton.assemble(state);
+  const Vector d = model.dofs.expand(newton.direction(state, 0.1).u);
   return d.reshaped(3, d.size() / 3).colwise().norm().maxCoeff();
 }
 
@@ -148,6 +148,14 @@ Workspace::Workspace(const Model& model)
       cholesky(reduced),
       curved(model.mesh, model.supports) {}
 
+bool Workspace::factorize(const Model& model, const Positions& x, const Parameters& p,
+                          double shift) {
+  reduced.assign(stiffness);
+  if (!cholesky.factorize(reduced, shift)) return mixed.forget(), false;
+  mixed.remember(bulk(model, x, p), reduced.lower().diagonal(), model.dofs);
+  return true;
+}
+
 Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Positions& start,
                               Workspace& ws, const SolveOptions& options) {
   Equilibrium result;
@@ -173,12 +181,12 @@ Equilibrium solve_small_deformation(const Model& model, const Parameters& p, Wor
   Parameters unloaded = p;
   for (size_t k = 0; k < model.parameters.size(); ++k)
     if (model.parameters[k].info.load) unloaded[k] = model.parameters[k].info.absent;
-  Newton(model, unloaded, ws).assemble(model.rest);
-  if (!ws.cholesky.factorize(ws.reduced)) {
+  stiffness(model, model.rest, unloaded, ws.stiffness);
+  if (!ws.factorize(model, model.rest, unloaded)) {
     result.message = "the stiffness of the rest shape is not positive definite";
     return result;
   }
-  result.x = model.rest + model.dofs.expand(ws.cholesky.solve(newton.residual(model.rest)));
+  result.x = model.rest + model.dofs.expand(ws.cholesky.solve(newton.at(model.rest).force));
   result.status = SolveStatus::converged;
   result.energy = newton.potential(result.x);
   result.newton_iterations = 1;

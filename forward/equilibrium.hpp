@@ -5,6 +5,7 @@
 
 #include "forward/cholesky.hpp"
 #include "forward/curved_step.hpp"
+#include "forward/mixed_solver.hpp"
 #include "forward/model.hpp"
 
 namespace genio {
@@ -17,7 +18,12 @@ struct Workspace {
   Stiffness stiffness;
   ReducedStiffness reduced;
   Cholesky cholesky;
+  MixedSolver mixed;
   CurvedStep curved;
+
+  /// Factorises `stiffness` + shift I, which is that of the shape x. False where it is not positive
+  /// definite.
+  bool factorize(const Model& model, const Positions& x, const Parameters& p, double shift = 0);
 };
 
 struct SolveOptions {
@@ -44,8 +50,8 @@ struct Equilibrium {
 };
 
 /// Newton from `start`. Each stage takes away a part of the unbalanced force (all of it when near)
-/// by steps whose linear systems are solved by conjugate gradients on the last factor, which is
-/// renewed only when that takes long. A step must lower the potential or its energy-norm residual,
+/// by steps whose linear systems are solved on the last factor with pressures as unknowns of their
+/// own (MixedSolver), which is renewed only when that takes long. A step must lower the potential or its energy-norm residual,
 /// is shortened until it does, and never turns tissue inside out; long ones are curved
 /// (CurvedStep). Where the tangent is indefinite, a stage minimises the potential plus springs to
 /// the shape it began at, weaker from stage to stage. Far from equilibrium contact is softer at

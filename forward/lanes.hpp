@@ -21,6 +21,15 @@ inline Lane inverse_two_thirds(Lane v) {
   return r;
 }
 
+/// Cofactors of a 3x3 matrix: its inverse transposed times its determinant.
+inline void cofactors(const Lane (&f)[3][3], Lane (&c)[3][3]) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      c[i][j] = f[i1][j1] * f[i2][j2] - f[i1][j2] * f[i2][j1];
+    }
+}
+
 /// True where any of the first `count` lanes is not above zero (NaN counts as not above).
 inline bool any_not_positive(Lane v, int count) {
   for (int l = 0; l < count; ++l)

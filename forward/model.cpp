@@ -13,6 +13,7 @@ namespace genio {
 void Model::finish() {
   rest = rest_positions(mesh);
   surface = boundary_quads(mesh);
+  batches = element_batches(mesh);
   dofs = DofMap(supports);
   std::vector<std::pair<int, int>> extra;
   parameters.clear();
@@ -136,11 +137,24 @@ void stiffness(const Model& model, const Positions& x, const Parameters& p, Stif
     model.effects[e]->add_stiffness(x, effect_parameters(model, p, int(e)), k);
 }
 
-void step_stiffness(const Model& model, const Positions& x, const Positions& previous,
-                    const Vector& step, const Parameters& p, Stiffness& k) {
+void step_stiffness(const Model& model, const Positions& x, const LinearStep& led,
+                    const Parameters& p, Stiffness& k) {
   k.set_zero();
   for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_step_stiffness(x, previous, step, effect_parameters(model, p, int(e)), k);
+    model.effects[e]->add_step_stiffness(x, led, effect_parameters(model, p, int(e)), k);
+}
+
+Bulk bulk(const Model& model, const Positions& x, const Parameters& p) {
+  Vector kappa = Vector::Zero(Eigen::Index(model.mesh.elements.size()));
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    model.effects[e]->add_bulk_modulus(effect_parameters(model, p, int(e)), kappa);
+  Bulk result{VolumeGradients(model.batches, x), {}, {}, Vector(kappa.size())};
+  for (const ElementBatch& batch : model.batches)
+    for (int l = 0; l < batch.count; ++l) result.volume[batch.element[l]] = batch.volume[l];
+  result.stiffness = kappa.cwiseQuotient(result.volume);
+  // Volumes are homogeneous of third degree in the positions (Euler).
+  result.excess = result.gradients.rates(x) / 3 - result.volume;
+  return result;
 }
 
 double step_limit(const Model& model, const Positions& x, const Positions& along,

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "forward/effects/effect.hpp"
+#include "forward/element_batches.hpp"
 #include "forward/fibres.hpp"
 #include "forward/mesh.hpp"
 #include "forward/stiffness.hpp"
 #include "forward/supports.hpp"
 #include "forward/triangle_surface.hpp"
+#include "forward/volume_gradients.hpp"
 
 namespace genio {
 
@@ -47,6 +49,7 @@ struct Model {
   // Derived by finish():
   Positions rest;             ///< [m]
   std::vector<Quad> surface;  ///< boundary faces
+  std::vector<ElementBatch> batches;
   DofMap dofs;
   BlockPattern pattern;
   std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another
@@ -90,8 +93,10 @@ double load_size(const Model& model, const Positions& x, const Parameters& p);
 /// Total stiffness into `k` (overwritten) [N/m].
 void stiffness(const Model& model, const Positions& x, const Parameters& p, Stiffness& k);
 /// Total stiffness for a Newton step, see Effect::add_step_stiffness.
-void step_stiffness(const Model& model, const Positions& x, const Positions& previous,
-                    const Vector& step, const Parameters& p, Stiffness& k);
+void step_stiffness(const Model& model, const Positions& x, const LinearStep& led,
+                    const Parameters& p, Stiffness& k);
+/// The part of the stiffness at x that keeps volumes. It refers to the model's batches.
+Bulk bulk(const Model& model, const Positions& x, const Parameters& p);
 /// Smallest of the effects' step limits.
 double step_limit(const Model& model, const Positions& x, const Positions& along,
                   const Parameters& p);

@@ -12,8 +12,7 @@ Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
 Matrix sensitivity_to_forces(const Model& model, const Equilibrium& equilibrium, const Matrix& df,
                              Workspace& ws) {
   stiffness(model, equilibrium.x, equilibrium.parameters, ws.stiffness);
-  ws.reduced.assign(ws.stiffness);
-  if (!ws.cholesky.factorize(ws.reduced)) return {};
+  if (!ws.factorize(model, equilibrium.x, equilibrium.parameters)) return {};
   Matrix right(model.dofs.unknowns(), df.cols());
   for (Eigen::Index c = 0; c < df.cols(); ++c) right.col(c) = model.dofs.reduce(df.col(c));
   const Matrix solved = ws.cholesky.solve(right);

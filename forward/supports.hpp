@@ -29,6 +29,8 @@ class DofMap {
   explicit DofMap(const std::vector<Support>& supports);
 
   int unknowns() const { return unknowns_; }
+  /// Nodal displacement components, 3 n.
+  Eigen::Index size() const { return Eigen::Index(index_.size()); }
   /// Unknown that moves displacement component `i` of 3 n; -1 where it is held.
   int unknown(int i) const { return index_[i]; }
   /// Displacements of all nodes from the unknowns.

@@ -47,12 +47,8 @@ bool deform(const ElementBatch& batch, const Positions& x, BatchShape& s) {
   for (int q = 0; q < 8; ++q) {
     auto& f = s.f[q];
     gradient(batch, q, position, f);
-    auto& c = s.inverse_t[q];  // cofactors first
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        c[i][j] = f[i1][j1] * f[i2][j2] - f[i1][j2] * f[i2][j1];
-      }
+    auto& c = s.inverse_t[q];
+    lanes::cofactors(f, c);
     s.j[q] = f[0][0] * c[0][0] + f[0][1] * c[0][1] + f[0][2] * c[0][2];
     if (lanes::any_not_positive(s.j[q], batch.count)) return false;
     Lane trace = lanes::splat(0);
@@ -140,24 +136,6 @@ void add_batch_stiffness_product(const ElementBatch& batch, const BatchShape& s,
     }
   }
   scatter(batch, out, product);
-}
-
-Lane predicted_volume(const ElementBatch& batch, const Positions& from, const Vector& step) {
-  BatchShape s;
-  deform(batch, from, s);
-  Lane volume = s.volume;
-  const auto moved = gather(batch, step);
-  for (int q = 0; q < 8; ++q) {
-    const Lane w = batch.weight[q] * s.j[q];
-    for (int a = 0; a < 8; ++a) {
-      const auto& d = batch.gradient[q][a];
-      for (int i = 0; i < 3; ++i)
-        volume += w * moved[a][i] *
-                  (s.inverse_t[q][i][0] * d[0] + s.inverse_t[q][i][1] * d[1] +
-                   s.inverse_t[q][i][2] * d[2]);
-    }
-  }
-  return volume;
 }
 
 void add_batch_stiffness(const ElementBatch& batch, const BatchShape& s, const BatchTissue& tissue,

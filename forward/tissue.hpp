@@ -56,7 +56,4 @@ void add_batch_stiffness(const ElementBatch& batch, const BatchShape& shape,
 void add_batch_stiffness_product(const ElementBatch& batch, const BatchShape& shape,
                                  const BatchTissue& tissue, const Vector& v, Forces& product);
 
-/// Volume after `step` as the linearisation at `from` predicts it [m^3].
-lanes::Lane predicted_volume(const ElementBatch& batch, const Positions& from, const Vector& step);
-
 }  // namespace genio

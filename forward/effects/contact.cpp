@@ -86,17 +86,17 @@ void Contact::add_force(const Positions& x, EffectParameters p, Forces& f) const
 }
 
 void Contact::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const {
-  add_step_stiffness(x, x, Vector::Zero(x.size()), p, k);
+  add_step_stiffness(x, {x, Vector::Zero(x.size()), {}}, p, k);
 }
 
-void Contact::add_step_stiffness(const Positions& x, const Positions& previous, const Vector& step,
-                                 EffectParameters p, Stiffness& k) const {
+void Contact::add_step_stiffness(const Positions& x, const LinearStep& led, EffectParameters p,
+                                 Stiffness& k) const {
   each_touching(x, p, [&](const ContactNode& c, const Surface& surface, double depth) {
     const auto s = surface.sample(node_position(x, c.node));
-    const auto before = surface.sample(node_position(previous, c.node));
+    const auto before = surface.sample(node_position(led.from, c.node));
     const SoftSpring spring(depth, soft_depth), was(c.clearance - before.value, soft_depth);
     const double slope =
-        std::max(0.0, was.slope - was.curvature * before.gradient.dot(node_position(step, c.node)));
+        std::max(0.0, was.slope - was.curvature * before.gradient.dot(node_position(led.step, c.node)));
     k.add(c.node, c.node,
           p[0] * c.area *
               (spring.curvature * s.gradient * s.gradient.transpose() - slope * s.hessian));

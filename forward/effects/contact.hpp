@@ -39,10 +39,10 @@ class Contact final : public Effect {
   double energy(const Positions& x, EffectParameters p) const override;
   void add_force(const Positions& x, EffectParameters p, Forces& f) const override;
   void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const override;
-  /// The surface's curvature enters with the force that the linearisation at `previous` predicted
-  /// for x: a straight step overshoots, and the force of its deep penetration is no guide.
-  void add_step_stiffness(const Positions& x, const Positions& previous, const Vector& step,
-                          EffectParameters p, Stiffness& k) const override;
+  /// The surface's curvature enters with the force that the linearisation predicted for x: a
+  /// straight step overshoots, and the force of its deep penetration is no guide.
+  void add_step_stiffness(const Positions& x, const LinearStep& led, EffectParameters p,
+                          Stiffness& k) const override;
   void add_force_derivative(const Positions& x, EffectParameters p, int k,
                             Forces& df) const override;
   /// No node goes deeper than `reach` in one step, unless it is deeper already.

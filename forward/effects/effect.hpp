@@ -28,6 +28,13 @@ struct ParameterInfo {
 /// borrows.
 using EffectParameters = std::span<const double>;
 
+/// The linearised step that led to a shape, and what it promised there.
+struct LinearStep {
+  const Positions& from;     ///< where the linearisation was made
+  const Vector& step;        ///< nodal displacements, followed along a straight or a curved path
+  const Vector& dilatation;  ///< each element's mean v/V - 1 as predicted for the shape
+};
+
 /// Energy, force and stiffness of one effect, and how its force changes with its parameters.
 /// Const and without scratch: one object serves any number of threads.
 class Effect {
@@ -45,17 +52,18 @@ class Effect {
   virtual void add_force(const Positions& x, EffectParameters p, Forces& f) const = 0;
   /// Adds d2E/dx2 [N/m].
   virtual void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const = 0;
-  /// Adds the stiffness a Newton step from `x` should use when `x` was reached from `previous` by
-  /// following the linear `step` (along a straight or a curved path). Differs from add_stiffness
-  /// only where a stiff constraint makes the force at x a poor guess of the force after the step;
-  /// equal to it when x is `previous` and the step is zero.
-  virtual void add_step_stiffness(const Positions& x, const Positions& /*previous*/,
-                                  const Vector& /*step*/, EffectParameters p, Stiffness& k) const {
+  /// Adds the stiffness a Newton step from `x` should use when the step `led` led there. Differs
+  /// from add_stiffness only where a stiff constraint makes the force at x a poor guess of the force
+  /// after the step; equal to it when the step is zero and the dilatation that of x.
+  virtual void add_step_stiffness(const Positions& x, const LinearStep& /*led*/,
+                                  EffectParameters p, Stiffness& k) const {
     add_stiffness(x, p, k);
   }
   /// Adds the derivative of the force with respect to parameter k [N per unit].
   virtual void add_force_derivative(const Positions& x, EffectParameters p, int k,
                                     Forces& df) const = 0;
+  /// Adds the bulk modulus this effect gives each element [Pa].
+  virtual void add_bulk_modulus(EffectParameters /*p*/, Vector& /*kappa*/) const {}
   /// Largest fraction in (0, 1] of the step `along` from x over which the linearisation at x is
   /// still some guide.
   virtual double step_limit(const Positions& /*x*/, const Positions& /*along*/,

@@ -33,15 +33,25 @@ void TissueEffect::add_stiffness(const Positions& x, EffectParameters p, Stiffne
   }
 }
 
-void TissueEffect::add_step_stiffness(const Positions& x, const Positions& previous,
-                                      const Vector& step, EffectParameters p, Stiffness& k) const {
+void TissueEffect::add_step_stiffness(const Positions& x, const LinearStep& led,
+                                      EffectParameters p, Stiffness& k) const {
   if (!present(p)) return;
   BatchShape s;
   for (size_t b = 0; b < batches_.size(); ++b) {
     if (!touches(b) || !deform(batches_[b], x, s)) continue;
     const BatchTissue t = tissue(b, p);
-    const lanes::Lane volume = predicted_volume(batches_[b], previous, step);
-    add_batch_stiffness(batches_[b], s, t, batch_pressure(batches_[b], volume, t), k);
+    lanes::Lane pressure = t.kappa;
+    for (int l = 0; l < lanes::width; ++l) pressure[l] *= led.dilatation[batches_[b].element[l]];
+    add_batch_stiffness(batches_[b], s, t, pressure, k);
+  }
+}
+
+void TissueEffect::add_bulk_modulus(EffectParameters p, Vector& kappa) const {
+  if (!present(p)) return;
+  for (size_t b = 0; b < batches_.size(); ++b) {
+    if (!touches(b)) continue;
+    const BatchTissue t = tissue(b, p);
+    for (int l = 0; l < batches_[b].count; ++l) kappa[batches_[b].element[l]] += t.kappa[l];
   }
 }
 

@@ -15,12 +15,13 @@ class TissueEffect : public Effect {
   double energy(const Positions& x, EffectParameters p) const final;
   void add_force(const Positions& x, EffectParameters p, Forces& f) const final;
   void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const final;
-  /// The geometric part uses the pressure that the linearisation at `previous` predicted for x, as
-  /// if pressures were unknowns of their own: kappa times the volume error that a straight step
-  /// leaves would swamp it (Simo & Taylor 1991, Comput. Methods Appl. Mech. Eng. 85, mixed
-  /// Newton with the pressure condensed).
-  void add_step_stiffness(const Positions& x, const Positions& previous, const Vector& step,
-                          EffectParameters p, Stiffness& k) const final;
+  /// The geometric part uses the pressure of the predicted dilatation, as if pressures were
+  /// unknowns of their own: kappa times the volume error that a straight step leaves would swamp it
+  /// (Simo & Taylor 1991, Comput. Methods Appl. Mech. Eng. 85, mixed Newton with the pressure
+  /// condensed).
+  void add_step_stiffness(const Positions& x, const LinearStep& led, EffectParameters p,
+                          Stiffness& k) const final;
+  void add_bulk_modulus(EffectParameters p, Vector& kappa) const final;
   void add_force_derivative(const Positions& x, EffectParameters p, int k, Forces& df) const final;
   /// Adds the product of the stiffness with `v`, without building the stiffness.
   void add_stiffness_product(const Positions& x, const Vector& v, EffectParameters p,

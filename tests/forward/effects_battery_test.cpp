@@ -134,7 +134,9 @@ TEST_P(EffectLaw, StiffnessIsMinusTheForcesDerivativeAndSymmetric) {
 TEST_P(EffectLaw, StepStiffnessEqualsStiffnessWithoutAStep) {
   Stiffness exact(model.pattern), step(model.pattern);
   effect->add_stiffness(x, values, exact);
-  effect->add_step_stiffness(x, x, Vector::Zero(x.size()), values, step);
+  const Bulk here = bulk(model, x, default_parameters(model));
+  const Vector dilatation = here.excess.cwiseQuotient(here.volume);
+  effect->add_step_stiffness(x, {x, Vector::Zero(x.size()), dilatation}, values, step);
   EXPECT_LE((exact.multiply(direction) - step.multiply(direction)).norm(),
             1e-12 * exact.multiply(direction).norm());
 }
