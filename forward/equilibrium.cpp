@@ -40,7 +40,7 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
                                    options.max_factorizations, result.residual);
       return;
     }
-    const double accuracy = std::clamp(0.3 * result.residual, 1e-3, 0.05);
+    const double accuracy = std::clamp(0.3 * result.residual, 1e-3, 0.02);
     newton.set_springs(springs);
     newton.assemble(state);
     MixedVector d = newton.direction(state, accuracy);
@@ -52,7 +52,8 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
                     longest_stage / ws.curved.size(x, along)});
       for (int tries = 0; tries < stage_tries && t > shortest_stage && newton.shift() == 0;
            ++tries, t *= 0.4) {
-        advanced = newton.stage(state, d, t, t == 1 ? 1e-4 : 3e-2, reached, result.newton_iterations);
+        advanced =
+            newton.stage(state, d, t, t == 1 ? 1e-4 : 3e-2, reached, result.newton_iterations);
         if (advanced) break;
         if (!ws.cholesky.valid()) newton.assemble(state), d = newton.direction(state, accuracy);
       }

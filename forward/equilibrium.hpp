@@ -51,12 +51,12 @@ struct Equilibrium {
 
 /// Newton from `start`. Each stage takes away a part of the unbalanced force (all of it when near)
 /// by steps whose linear systems are solved on the last factor with pressures as unknowns of their
-/// own (MixedSolver), which is renewed only when that takes long. A step must lower the potential or its energy-norm residual,
-/// is shortened until it does, and never turns tissue inside out; long ones are curved
-/// (CurvedStep). Where the tangent is indefinite, a stage minimises the potential plus springs to
-/// the shape it began at, weaker from stage to stage. Far from equilibrium contact is softer at
-/// first. Where all this fails from `start`, muscle commands and weight are brought up from the
-/// rest shape in steps.
+/// own (MixedSolver), which is renewed only when that takes long. A step must lower the potential
+/// or its energy-norm residual, is shortened until it does, and never turns tissue inside out; long
+/// ones are curved (CurvedStep). Where the tangent is indefinite, a stage minimises the potential
+/// plus springs to the shape it began at, weaker from stage to stage. Far from equilibrium contact
+/// is softer at first. Where all this fails from `start`, muscle commands and weight are brought up
+/// from the rest shape in steps.
 Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Positions& start,
                               Workspace& ws, const SolveOptions& options = {});
 

@@ -51,27 +51,32 @@ bool MixedSolver::solve(const Cholesky& factor, const DofMap& dofs, const Produc
                         MixedVector& step) {
   if (stale_.gradients.empty() || !factor.valid() || !(now.stiffness.minCoeff() > 0)) return false;
   const Eigen::Index n = right.u.size(), elements = now.stiffness.size();
-  // A volume error counts as the force of a pressure between the tissue's shear and bulk moduli,
-  // their geometric mean.
-  const Vector weight = (stiffness_ * stale_.stiffness).cwiseSqrt();
+  // Displacements and pressures of about the same energy, so that errors of both count.
+  Vector unit(n + elements);
+  unit << Vector::Constant(n, 1 / std::sqrt(stiffness_)), stale_.stiffness.cwiseSqrt();
   const Vector& c = now.stiffness;
+  const auto preconditioned = [&](const MixedVector& r) -> Vector {
+    const MixedVector z = rough_step(factor, r, dofs);
+    Vector v(n + elements);
+    v << z.u, z.pressure;
+    return v.cwiseQuotient(unit);
+  };
+  const auto times = [&](const Vector& v) -> MixedVector {
+    const Vector d = v.head(n), q = v.tail(elements), rates = now.gradients.rates(dofs.expand(d));
+    return {k(d) + forces(now.gradients, q - c.cwiseProduct(rates), dofs),
+            rates - q.cwiseQuotient(c)};
+  };
 
-  Matrix basis(n + elements, patience + 1), d(n, patience), q(elements, patience);
-  Matrix h = Matrix::Zero(patience + 1, patience);
+  Matrix basis(n + elements, patience + 1), h = Matrix::Zero(patience + 1, patience);
   std::vector<Eigen::JacobiRotation<double>> rotations;
   Vector g = Vector::Zero(patience + 1);
-  basis.col(0) << right.u, weight.cwiseProduct(right.pressure);
+  basis.col(0) = preconditioned(right);
   const double whole = g[0] = basis.col(0).norm();
   basis.col(0) /= whole;
   for (int j = 0; j < patience; ++j) {
     iterations_ = j + 1;
-    const MixedVector guess = rough_step(
-        factor, {basis.col(j).head(n), basis.col(j).tail(elements).cwiseQuotient(weight)}, dofs);
-    d.col(j) = guess.u, q.col(j) = guess.pressure;
-    const Vector rates = now.gradients.rates(dofs.expand(guess.u));
     auto w = basis.col(j + 1);
-    w.head(n) = k(guess.u) + forces(now.gradients, q.col(j) - c.cwiseProduct(rates), dofs);
-    w.tail(elements) = weight.cwiseProduct(rates - q.col(j).cwiseQuotient(c));
+    w = preconditioned(times(basis.col(j).cwiseProduct(unit)));
     h.col(j).head(j + 1) = basis.leftCols(j + 1).transpose() * w;
     w -= basis.leftCols(j + 1) * h.col(j).head(j + 1);
     h(j + 1, j) = w.norm();
@@ -84,7 +89,8 @@ bool MixedSolver::solve(const Cholesky& factor, const DofMap& dofs, const Produc
     if (std::abs(g[j + 1]) > accuracy * whole) continue;
     const Vector y =
         h.topLeftCorner(j + 1, j + 1).triangularView<Eigen::Upper>().solve(g.head(j + 1));
-    step = {d.leftCols(j + 1) * y, q.leftCols(j + 1) * y};
+    const Vector z = (basis.leftCols(j + 1) * y).cwiseProduct(unit);
+    step = {z.head(n), z.tail(elements)};
     return true;
   }
   return false;

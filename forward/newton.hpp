@@ -12,10 +12,10 @@ struct MixedState {
   Positions x;
   Vector pressure;  ///< of each element [Pa]
   Bulk bulk;
-  Vector force;        ///< unbalanced, with the pressures that the volumes give [N]
-  MixedVector right;   ///< unbalanced force [N]; pressure/c less the excess of volume [m^3]
-  double merit = 0;    ///< squared energy norm of the step that the last factor would take
-  double energy = 0;   ///< potential, of the springs and of the force that is held too [J]
+  Vector force;       ///< unbalanced, with the pressures that the volumes give [N]
+  MixedVector right;  ///< unbalanced force [N]; pressure/c less the excess of volume [m^3]
+  double merit = 0;   ///< squared energy norm of the step that the last factor would take
+  double energy = 0;  ///< potential, of the springs and of the force that is held too [J]
 };
 
 /// Everything one Newton solve looks at, so that its steps read like the method.

@@ -95,8 +95,8 @@ void Contact::add_step_stiffness(const Positions& x, const LinearStep& led, Effe
     const auto s = surface.sample(node_position(x, c.node));
     const auto before = surface.sample(node_position(led.from, c.node));
     const SoftSpring spring(depth, soft_depth), was(c.clearance - before.value, soft_depth);
-    const double slope =
-        std::max(0.0, was.slope - was.curvature * before.gradient.dot(node_position(led.step, c.node)));
+    const double slope = std::max(
+        0.0, was.slope - was.curvature * before.gradient.dot(node_position(led.step, c.node)));
     k.add(c.node, c.node,
           p[0] * c.area *
               (spring.curvature * s.gradient * s.gradient.transpose() - slope * s.hessian));

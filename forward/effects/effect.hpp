@@ -53,10 +53,10 @@ class Effect {
   /// Adds d2E/dx2 [N/m].
   virtual void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const = 0;
   /// Adds the stiffness a Newton step from `x` should use when the step `led` led there. Differs
-  /// from add_stiffness only where a stiff constraint makes the force at x a poor guess of the force
-  /// after the step; equal to it when the step is zero and the dilatation that of x.
-  virtual void add_step_stiffness(const Positions& x, const LinearStep& /*led*/,
-                                  EffectParameters p, Stiffness& k) const {
+  /// from add_stiffness only where a stiff constraint makes the force at x a poor guess of the
+  /// force after the step; equal to it when the step is zero and the dilatation that of x.
+  virtual void add_step_stiffness(const Positions& x, const LinearStep& /*led*/, EffectParameters p,
+                                  Stiffness& k) const {
     add_stiffness(x, p, k);
   }
   /// Adds the derivative of the force with respect to parameter k [N per unit].

@@ -33,8 +33,8 @@ void TissueEffect::add_stiffness(const Positions& x, EffectParameters p, Stiffne
   }
 }
 
-void TissueEffect::add_step_stiffness(const Positions& x, const LinearStep& led,
-                                      EffectParameters p, Stiffness& k) const {
+void TissueEffect::add_step_stiffness(const Positions& x, const LinearStep& led, EffectParameters p,
+                                      Stiffness& k) const {
   if (!present(p)) return;
   BatchShape s;
   for (size_t b = 0; b < batches_.size(); ++b) {
