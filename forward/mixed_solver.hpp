@@ -41,8 +41,9 @@ class MixedSolver {
   Vector condensed(const MixedVector& right, const DofMap& dofs) const;
 
   using Product = std::function<Vector(const Vector&)>;
-  /// Solves the system of K, given by its products, and `now`, to `accuracy` of the norm of the
-  /// right-hand side. False where that takes more than `patience` iterations.
+  /// Solves the system of K, given by its products, and `now`, to `accuracy` of the step's energy
+  /// norm; single precision stands in the way of more than about 1e-5. False where that takes more
+  /// than `patience` iterations.
   bool solve(const Cholesky& factor, const DofMap& dofs, const Product& k, const Bulk& now,
              const MixedVector& right, double accuracy, int patience, MixedVector& step);
   /// Of the last solve() on this factor; 0 when there was none.
