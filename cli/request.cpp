@@ -39,8 +39,12 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
   v.title = frame_title(frame);
   v.status = r.status, v.message = r.message, v.verdict = r.verdict;
   for (size_t i = 0; i < r.muscle.size(); ++i)
-    v.commands.push_back({r.muscle[i], r.force_N[i], r.max_force_N[i], r.sd_N[i], r.low_N[i],
-                          r.high_N[i], false, false});
+    v.commands.push_back({.name = r.muscle[i],
+                          .force = r.force_N[i],
+                          .max_force = r.max_force_N[i],
+                          .sd = r.sd_N[i],
+                          .low = r.low_N[i],
+                          .high = r.high_N[i]});
   for (const auto& group : r.unidentified) {
     std::vector<std::string> names(1);
     for (char c : group)

@@ -12,11 +12,27 @@ std::vector<Command> muscle_commands(const Model& model, bool bilateral) {
                     [&](const auto& c) { return c.name == name; }))
       continue;
     Command c{name, 0, command_parameters(model, name), {}};
-    for (int k : c.parameters) c.max_force += model.parameters[k].info.upper;
-    for (int k : c.parameters) c.shares.push_back(model.parameters[k].info.upper / c.max_force);
+    for (int k : c.parameters) c.scale += model.parameters[k].info.upper;
+    for (int k : c.parameters) c.shares.push_back(model.parameters[k].info.upper / c.scale);
     commands.push_back(std::move(c));
   }
   return commands;
+}
+
+Matrix pose_derivative(const std::vector<Command>& commands) {
+  Matrix d = Matrix::Zero(3, Eigen::Index(commands.size()));
+  for (size_t c = 0; c < commands.size(); ++c)
+    if (commands[c].kind == Command::Kind::pose)
+      d(commands[c].name == "head_pose.x"   ? 0
+        : commands[c].name == "head_pose.z" ? 1
+                                            : 2,
+        Eigen::Index(c)) = commands[c].scale;
+  return d;
+}
+
+HeadPose head_pose(const std::vector<Command>& commands, const Vector& z) {
+  const Vec3 pose = pose_derivative(commands) * z;
+  return {pose.head<2>(), pose[2]};
 }
 
 Parameters apply_commands(const std::vector<Command>& commands, const Vector& activations,
@@ -24,7 +40,7 @@ Parameters apply_commands(const std::vector<Command>& commands, const Vector& ac
   for (size_t c = 0; c < commands.size(); ++c)
     for (size_t i = 0; i < commands[c].parameters.size(); ++i)
       parameters[commands[c].parameters[i]] =
-          activations[Eigen::Index(c)] * commands[c].max_force * commands[c].shares[i];
+          activations[Eigen::Index(c)] * commands[c].scale * commands[c].shares[i];
   return parameters;
 }
 

@@ -1,25 +1,38 @@
 #pragma once
-// The unknowns of an inversion: muscle commands, of each side or of both together.
+// The unknowns of an inversion: muscle commands, of each side or of both together, and what is
+// estimated along with them.
 
 #include <string>
 #include <vector>
 
 #include "forward/model.hpp"
+#include "inverse/head_pose.hpp"
 
 namespace genio {
 
-/// One unknown: a force shared over one or two muscle parameters.
+/// One unknown z: a force shared over one or two muscle parameters (z is the activation), another
+/// parameter of the model, or a part of the head pose, which moves the target and not the tongue.
 struct Command {
+  enum class Kind { muscle, parameter, pose };
+
   std::string name;             ///< "GGP" for both sides, "GGP_L" for one
-  double max_force;             ///< [N]
+  double scale;                 ///< value at z = 1: a muscle's maximum force [N]
   std::vector<int> parameters;  ///< model parameter indices
-  std::vector<double> shares;   ///< part of the force each gets
+  std::vector<double> shares;   ///< part of the value each gets
+  Kind kind = Kind::muscle;
+  std::string unit = "N";
+  double lower = 0, upper = 1;  ///< of z
 };
 
 /// All muscles of the model, in the model's order; `bilateral` joins left and right.
 std::vector<Command> muscle_commands(const Model& model, bool bilateral);
 
-/// Model parameters with the commands set to `activations` (force over maximum, 0 to 1).
+/// The head pose among the unknowns' values; none: no motion.
+HeadPose head_pose(const std::vector<Command>& commands, const Vector& z);
+/// d (shift x, shift z, turn) / dz: 3 x count.
+Matrix pose_derivative(const std::vector<Command>& commands);
+
+/// Model parameters with the commands set to `activations` (value over scale).
 Parameters apply_commands(const std::vector<Command>& commands, const Vector& activations,
                           Parameters parameters);
 

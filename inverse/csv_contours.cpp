@@ -12,8 +12,9 @@
 namespace genio {
 namespace {
 
-const std::vector<std::string> known_columns = {"frame",    "point", "x_mm",  "y_mm",  "z_mm",
-                                                "sigma_mm", "kind",  "label", "time_s"};
+const std::vector<std::string> known_columns = {"frame",  "point",     "x_mm",      "y_mm",
+                                                "z_mm",   "sigma_mm",  "kind",      "label",
+                                                "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm"};
 
 }  // namespace
 
@@ -64,6 +65,12 @@ ContourFile read_csv_contours(const std::string& path) {
     p.kind = column.contains("kind") ? trimmed(fields[column["kind"]]) : "";
     if (p.kind.empty()) p.kind = "curve";
     if (p.kind == "surface" && !has_y) lines.fail("a surface point needs y_mm");
+    if (p.kind == "volume") {
+      for (const char* needed : {"rest_x_mm", "rest_y_mm", "rest_z_mm"})
+        if (!column.contains(needed))
+          lines.fail(fmt::format("a volume point needs column '{}'", needed));
+      p.rest = 1e-3 * Vec3(number("rest_x_mm"), number("rest_y_mm"), number("rest_z_mm"));
+    }
     if (column.contains("label") && f.label.empty()) f.label = trimmed(fields[column["label"]]);
     if (column.contains("time_s") && !trimmed(fields[column["time_s"]]).empty())
       f.time_s = number("time_s");

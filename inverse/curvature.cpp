@@ -5,7 +5,8 @@
 namespace genio {
 namespace {
 
-constexpr double step = 1e-6;  // longest nodal displacement of a difference [m]
+constexpr double step = 1e-6;  // longest displacement of a node or a target point [m]
+constexpr double arm = 0.03;   // of a target point about the middle [m]
 
 }  // namespace
 
@@ -16,7 +17,7 @@ Matrix command_pulls(const Model& model, const std::vector<Command>& commands, c
     const Matrix each = force_derivatives(model, x, p, commands[c].parameters);
     for (size_t i = 0; i < commands[c].shares.size(); ++i)
       pulls.col(Eigen::Index(c)) +=
-          commands[c].shares[i] * commands[c].max_force * each.col(Eigen::Index(i));
+          commands[c].shares[i] * commands[c].scale * each.col(Eigen::Index(i));
   }
   return pulls;
 }
@@ -30,34 +31,33 @@ Vector misfit_gradient(const Residuals& residuals, const Vector& values, Eigen::
 }
 
 Matrix misfit_curvature(const Model& model, const Comparison& comparison,
-                        const std::vector<Command>& commands, const Equilibrium& equilibrium,
-                        const Residuals& residuals, const Matrix& positions, const Vector& adjoint,
-                        Workspace& ws) {
+                        const std::vector<Command>& commands, const Vector& z,
+                        const Equilibrium& equilibrium, const Residuals& residuals,
+                        const Matrix& positions, const Vector& adjoint, Workspace& ws) {
   const Positions& x = equilibrium.x;
-  const Parameters& p = equilibrium.parameters;
   const Eigen::Index n = positions.cols();
-  Matrix shapes(n, n), pulls(n, n);
+  const Matrix by_pose = pose_derivative(commands);
+  Matrix s = Matrix::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double size = positions.col(i).cwiseAbs().maxCoeff();
-    if (size == 0) {
-      shapes.row(i).setZero(), pulls.row(i).setZero();
-      continue;
-    }
+    const double size = std::max({positions.col(i).cwiseAbs().maxCoeff(),
+                                  by_pose.col(i).head<2>().norm(), arm * std::abs(by_pose(2, i))});
+    if (size == 0) continue;
     const double h = step / size;
-    Vector slope = Vector::Zero(x.size());
-    Vector work = Vector::Zero(n);
     for (const double e : {h, -h}) {
+      const Vector there = z + e * Vector::Unit(n, i);
       const Positions y = x + e * positions.col(i);
-      stiffness(model, y, p, ws.stiffness);
-      slope += (misfit_gradient(comparison(y), residuals.values, x.size()) -
-                ws.stiffness.multiply(adjoint)) /
-               (2 * e);
-      work += command_pulls(model, commands, y, p).transpose() * adjoint / (2 * e);
+      const Parameters p = apply_commands(commands, there, equilibrium.parameters);
+      const Residuals r = comparison(y, head_pose(commands, there));
+      Vector slope = misfit_gradient(r, residuals.values, x.size());
+      Vector row = by_pose.transpose() * (r.pose.transpose() * residuals.values);
+      if (!positions.col(i).isZero(0)) {
+        stiffness(model, y, p, ws.stiffness);
+        slope -= ws.stiffness.multiply(adjoint);
+        row += command_pulls(model, commands, y, p).transpose() * adjoint;
+      }
+      s.row(i) += (row + positions.transpose() * slope).transpose() / (2 * e);
     }
-    shapes.row(i) = positions.transpose() * slope;
-    pulls.row(i) = work;
   }
-  const Matrix s = shapes + pulls + pulls.transpose();
   return 0.5 * (s + s.transpose());
 }
 

@@ -37,9 +37,14 @@ int flesh_node(const Model& model, const std::string& name) {
     throw InputError(
         fmt::format("kind '{}': expected node:0 to node:{}", name, model.mesh.nodes.size() - 1));
   }
-  throw InputError(fmt::format(
-      "kind '{}': unknown; did you mean {}?", name,
-      nearest_name(name, {"curve", "surface", "tip", "blade", "dorsum", "root", "node:0"})));
+  throw InputError(fmt::format("kind '{}': unknown; did you mean {}?", name,
+                               nearest_name(name, {"curve", "surface", "volume", "tip", "blade",
+                                                   "dorsum", "root", "node:0"})));
+}
+
+std::vector<std::pair<int, double>> flesh(const Model& model, const ContourPoint& p) {
+  if (p.kind == "volume") return tissue_point(model.mesh, p.rest);
+  return {{flesh_node(model, p.kind), 1.0}};
 }
 
 }  // namespace
@@ -81,7 +86,7 @@ Target make_target(const Model& model, const ContourFrame& frame, double noise) 
           frame.number, i + 1, 1e3 * q[0], 1e3 * q[2], 1e3 * (flat - middle).norm()));
     if (p.kind == "curve") target.curve.push_back({Vec2(q[0], q[2]), sigma});
     else if (p.kind == "surface") target.surface.push_back({q, sigma});
-    else target.flesh.push_back({flesh_node(model, p.kind), q, sigma, p.kind});
+    else target.flesh.push_back({flesh(model, p), q, sigma, p.kind});
   }
   if (frame.points.size() > 2) {
     Vec3 low = Vec3::Constant(1e9), high = -low;

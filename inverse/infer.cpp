@@ -34,6 +34,12 @@ const char* to_string(Verdict verdict) {
   return "none";
 }
 
+std::vector<std::string> names(const TradeOff& trade) {
+  std::vector<std::string> result;
+  for (const Share& share : trade) result.push_back(share.name);
+  return result;
+}
+
 Answer infer(const Model& model, const Target& target, const Prior& prior, Workspace& ws,
              const InferOptions& options) {
   if (target.empty()) throw InputError("the target has no points");
@@ -41,7 +47,9 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
   Objective objective(model, comparison, prior, options, ws);
   const Eigen::Index n = Eigen::Index(objective.commands().size());
   const bool warm = options.start.size() == n;
+  const Vector &lower = objective.prior().lower, &upper = objective.prior().upper;
   Vector start = warm ? options.start : Vector::Constant(n, 1e-2);
+  start = start.cwiseMax(lower).cwiseMin(upper);
 
   Answer answer;
   if (!warm) {
@@ -50,9 +58,9 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
     InferOptions rough = options;
     rough.tolerance = 1e-2;
     rough.max_iterations = 15;
-    objective.set_effort_sd(prior.effort_sd / 4);
+    objective.set_prior(with_effort(prior, 0.25));
     const OptimiserResult near = minimise(objective, start, false, rough);
-    objective.set_effort_sd(prior.effort_sd);
+    objective.set_prior(prior);
     answer.iterations = near.iterations;
     if (near.activations.size() == n) start = near.activations;
   }
@@ -65,7 +73,10 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
   if (answer.status == InferStatus::converged) {
     // What the barrier holds off a bound it would reach belongs on it.
     Vector rounded = optimum.activations;
-    for (auto& z : rounded) z = z < 1e-3 ? 0.0 : z > 1 - 1e-3 ? 1.0 : z;
+    for (Eigen::Index i = 0; i < n; ++i)
+      rounded[i] = rounded[i] < lower[i] + 1e-3   ? lower[i]
+                   : rounded[i] > upper[i] - 1e-3 ? upper[i]
+                                                  : rounded[i];
     const auto* point = objective.derivatives(rounded);
     if (!point) point = objective.derivatives(optimum.activations);
     if (point) {

@@ -8,15 +8,10 @@
 #include <vector>
 
 #include "forward/equilibrium.hpp"
-#include "inverse/commands.hpp"
+#include "inverse/prior.hpp"
 #include "inverse/target.hpp"
 
 namespace genio {
-
-/// What is believed of the commands before the shape is seen.
-struct Prior {
-  double effort_sd = 0.2;  ///< standard deviation of the activation about 0
-};
 
 struct InferOptions {
   std::optional<bool> bilateral;  ///< unset: left and right together for midsagittal targets
@@ -35,13 +30,33 @@ enum class Verdict { none, explained, unreachable, mismatch };
 const char* to_string(InferStatus status);
 const char* to_string(Verdict verdict);
 
-/// One muscle of an answer. Forces in N, both sides together for bilateral commands.
+/// One muscle of an answer. Forces in N, both sides together for bilateral commands. Or another
+/// unknown, in its own unit.
 struct CommandEstimate {
   std::string name;
   double force = 0, max_force = 0;
-  double sd = 0;             ///< Laplace standard deviation
-  double low = 0, high = 0;  ///< 90 % interval; one-sided where the force is at a bound
-  bool at_lower = false, at_upper = false;
+  std::string unit = "N";
+  double sd = 0;                ///< of the posterior
+  double low = 0, high = 0;     ///< 90 % interval; one-sided where the force is at a bound
+  double information_bits = 0;  ///< binary logarithm of the prior's over the posterior's sd
+  bool at_lower = false, at_upper = false, fixed = false;
+};
+
+/// What trades for what without the data noticing: a direction in the unknowns, in their own units.
+struct Share {
+  std::string name;
+  double amount;
+  bool operator==(const Share&) const = default;
+};
+using TradeOff = std::vector<Share>;
+std::vector<std::string> names(const TradeOff& trade);
+
+/// Another optimum that fits.
+struct Alternative {
+  double weight = 0;  ///< posterior probability among the optima found
+  std::vector<CommandEstimate> commands;
+  double rms = 0;  ///< [m]
+  Positions shape;
 };
 
 struct Answer {
@@ -49,8 +64,12 @@ struct Answer {
   std::string message;  ///< reason of a failure, or of the verdict
   Verdict verdict = Verdict::none;
   std::vector<CommandEstimate> commands;
-  std::vector<std::vector<std::string>> unidentified;  ///< muscles the data cannot tell apart
-  double rms = 0, max = 0;  ///< distance of the measured points from the shape [m]
+  std::vector<CommandEstimate> along;     ///< parameters and head pose estimated along
+  std::vector<TradeOff> unidentified;     ///< muscles the data cannot tell apart
+  double weight = 1;                      ///< of this optimum among those found
+  std::vector<Alternative> alternatives;  ///< the others, likeliest first; see infer_from_starts
+  double log_evidence = 0;                ///< of the data, by Laplace's method about this optimum
+  double rms = 0, max = 0;                ///< distance of the measured points from the shape [m]
   double chi2_per_dof = 0;
   Residuals residuals;
   Vector activations;
@@ -64,5 +83,11 @@ struct Answer {
 /// the Laplace posterior about them. Throws InputError for an empty target.
 Answer infer(const Model& model, const Target& target, const Prior& prior, Workspace& ws,
              const InferOptions& options = {});
+
+/// infer() from rest and from `starts` - 1 draws of the prior: the likeliest optimum, with those
+/// that differ from it by more than the posterior's own spread as alternatives. Weights are shares
+/// of the Laplace evidence.
+Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
+                         Workspace& ws, const InferOptions& options, int starts);
 
 }  // namespace genio

@@ -27,9 +27,9 @@ Objective::Objective(const Model& model, const Comparison& comparison, const Pri
       options_(options),
       ws_(ws),
       commands_(
-          muscle_commands(model, options.bilateral.value_or(comparison.target().midsagittal()))),
+          unknowns(model, prior, options.bilateral.value_or(comparison.target().midsagittal()))),
       base_(default_parameters(model)),
-      effort_weight_(1 / (prior.effort_sd * prior.effort_sd)),
+      prior_(prior_terms(prior, commands_)),
       factorizations_before_(ws.cholesky.factorizations()),
       started_(std::chrono::steady_clock::now()) {}
 
@@ -46,14 +46,13 @@ bool Objective::stopped() {
 }
 
 void Objective::weigh(ObjectivePoint& p) const {
-  p.value =
-      0.5 * p.residuals.values.squaredNorm() + 0.5 * effort_weight_ * p.activations.squaredNorm();
+  p.value = 0.5 * p.residuals.values.squaredNorm() + prior_.value(p.activations);
   if (p.positions.size() > 0)
-    p.gradient = p.jacobian.transpose() * p.residuals.values + effort_weight_ * p.activations;
+    p.gradient = p.jacobian.transpose() * p.residuals.values + prior_.gradient(p.activations);
 }
 
-void Objective::set_effort_sd(double sd) {
-  effort_weight_ = 1 / (sd * sd);
+void Objective::set_prior(const Prior& prior) {
+  prior_ = prior_terms(prior, commands_);
   if (have_last_) weigh(last_);
   if (have_anchor_) weigh(anchor_);
 }
@@ -86,7 +85,7 @@ bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
     failure_ = point.equilibrium.message;
     return false;
   }
-  point.residuals = comparison_(point.equilibrium.x);
+  point.residuals = comparison_(point.equilibrium.x, head_pose(commands_, activations));
   point.positions.resize(0, 0);
   weigh(point);
   return true;
@@ -115,7 +114,8 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
   }
   point.adjoint = model_.dofs.expand(ws_.cholesky.solve(model_.dofs.reduce(
       misfit_gradient(point.residuals, point.residuals.values, point.equilibrium.x.size()))));
-  point.jacobian = residual_jacobian(point.residuals, point.positions);
+  point.jacobian = residual_jacobian(point.residuals, point.positions) +
+                   point.residuals.pose * pose_derivative(commands_);
   weigh(point);
   anchor_ = std::move(point);
   have_anchor_ = true;
@@ -130,7 +130,9 @@ double Objective::promised_gain(const ObjectivePoint& point, const Matrix& h) co
   const Vector &z = point.activations, &g = point.gradient;
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < z.size(); ++i)
-    if (!(z[i] < near_bound && g[i] > 0) && !(z[i] > 1 - near_bound && g[i] < 0)) free.push_back(i);
+    if (!(z[i] < prior_.lower[i] + near_bound && g[i] > 0) &&
+        !(z[i] > prior_.upper[i] - near_bound && g[i] < 0) && !prior_.fixed(i))
+      free.push_back(i);
   if (free.empty()) return 0;
   const Vector slope = g(free);
   const Eigen::LLT<Matrix> factor(Matrix(h(free, free)));
@@ -138,15 +140,14 @@ double Objective::promised_gain(const ObjectivePoint& point, const Matrix& h) co
 }
 
 Matrix Objective::gauss_newton(const ObjectivePoint& point) const {
-  Matrix h = point.jacobian.transpose() * point.jacobian;
-  h.diagonal().array() += effort_weight_;
-  return h;
+  return point.jacobian.transpose() * point.jacobian + prior_.hessian();
 }
 
 Matrix Objective::exact_hessian(const ObjectivePoint& point) const {
   if (point.curvature.size() == 0)
-    point.curvature = misfit_curvature(model_, comparison_, commands_, point.equilibrium,
-                                       point.residuals, point.positions, point.adjoint, ws_);
+    point.curvature =
+        misfit_curvature(model_, comparison_, commands_, point.activations, point.equilibrium,
+                         point.residuals, point.positions, point.adjoint, ws_);
   return gauss_newton(point) + point.curvature;
 }
 

@@ -9,13 +9,13 @@ namespace genio {
 
 /// Everything known at one point of command space.
 struct ObjectivePoint {
-  Vector activations;
+  Vector activations;  ///< all unknowns
   Equilibrium equilibrium;
   Residuals residuals;
   double value = 0;
   // Filled on demand:
   Matrix positions;  ///< dx/d activation, 3 n x count
-  Matrix jacobian;   ///< d residual / d activation
+  Matrix jacobian;   ///< d residual / d unknown
   Vector gradient;
   Vector adjoint;            ///< K^-1 of the misfit's derivative with respect to the positions
   mutable Matrix curvature;  ///< misfit_curvature(), once asked for
@@ -29,7 +29,8 @@ class Objective {
             const InferOptions& options, Workspace& ws);
 
   /// Changes the prior; what is remembered stays valid but for its value and gradient.
-  void set_effort_sd(double sd);
+  void set_prior(const Prior& prior);
+  const PriorTerms& prior() const { return prior_; }
 
   const std::vector<Command>& commands() const { return commands_; }
   /// nullptr where no equilibrium was found or the time is up.
@@ -58,7 +59,6 @@ class Objective {
   int factorizations() const { return ws_.cholesky.factorizations() - factorizations_before_; }
   int forward_solves() const { return forward_solves_; }
   double seconds() const;
-  double effort_weight() const { return effort_weight_; }
 
  private:
   /// Infinite where `hessian` is indefinite over the commands free to move.
@@ -72,7 +72,7 @@ class Objective {
   Workspace& ws_;
   std::vector<Command> commands_;
   Parameters base_;
-  double effort_weight_;
+  PriorTerms prior_;
   ObjectivePoint last_, anchor_;  // latest evaluated; latest with derivatives
   bool have_last_ = false, have_anchor_ = false;
   InferStatus stop_ = InferStatus::converged;

@@ -31,8 +31,8 @@ class CommandProblem final : public Ipopt::TNLP {
     return true;
   }
   bool get_bounds_info(Index n, Number* lower, Number* upper, Index, Number*, Number*) override {
-    std::fill_n(lower, n, 0.0);
-    std::fill_n(upper, n, 1.0);
+    Map<Vector>(lower, n) = objective_.prior().lower;
+    Map<Vector>(upper, n) = objective_.prior().upper;
     return true;
   }
   bool get_starting_point(Index n, bool, Number* x, bool init_z, Number* z_l, Number* z_u, Index,

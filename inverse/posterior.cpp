@@ -11,25 +11,7 @@ namespace {
 
 constexpr double bound_margin = 2e-4;  // activation this near a bound sits at it
 constexpr double test_level = 0.01;
-
-/// Groups of commands that dominate a direction about which the data say less than the prior.
-std::vector<std::vector<std::string>> unseen_directions(const Matrix& jacobian,
-                                                        double effort_weight,
-                                                        const std::vector<Command>& commands) {
-  std::vector<std::vector<std::string>> groups;
-  const Matrix information = jacobian.transpose() * jacobian;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(information);
-  for (Eigen::Index k = 0; k < information.rows(); ++k) {
-    if (eigen.eigenvalues()[k] >= effort_weight) break;  // ascending
-    const Vector v = eigen.eigenvectors().col(k);
-    std::vector<std::string> group;
-    for (Eigen::Index i = 0; i < v.size(); ++i)
-      if (std::abs(v[i]) > 0.35) group.push_back(commands[size_t(i)].name);
-    if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
-      groups.push_back(group);
-  }
-  return groups;
-}
+constexpr int sample_count = 4000;
 
 /// Name of the tongue region at a place of the midsagittal line, by its fraction from tip to end.
 std::string region(const TongueLine& line, const Positions& x, const Vec3& place) {
@@ -48,36 +30,63 @@ std::string list(const std::vector<std::string>& names) {
 
 }  // namespace
 
-MarginalSummary summarise(const Marginal& m, bool at_lower, bool at_upper) {
-  constexpr int cells = 4000;
-  // Integrate where the mass is: a narrow peak would fall between points of a grid on [0, 1].
-  const double width = 12 / std::max(std::sqrt(m.curvature), std::abs(m.slope));
-  const double low = std::max(0.0, m.mode - width), high = std::min(1.0, m.mode + width);
-  const double cell = (high - low) / cells;
-  std::vector<double> cumulative(cells + 1, 0.0);
-  double mean = 0, square = 0;
-  for (int i = 0; i < cells; ++i) {
-    const double d = low + (i + 0.5) * cell - m.mode;
-    const double w = std::exp(-m.slope * d - 0.5 * m.curvature * d * d);
-    cumulative[size_t(i) + 1] = cumulative[size_t(i)] + w;
-    mean += w * d, square += w * d * d;
+LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint& optimum) {
+  const PriorTerms& prior = objective.prior();
+  LocalPosterior result;
+  for (Eigen::Index i = 0; i < optimum.activations.size(); ++i)
+    if (!prior.fixed(i)) result.which.push_back(i);
+  const auto& which = result.which;
+  const auto restricted = [&](const Matrix& h) -> Matrix { return h(which, which); };
+  Matrix h = restricted(objective.exact_hessian(optimum));
+  // Across a bound that presses the exact Hessian need not be definite.
+  if (Eigen::LLT<Matrix>(h).info() != Eigen::Success) h = restricted(objective.hessian(optimum));
+  if (Eigen::LLT<Matrix>(h).info() != Eigen::Success)
+    h = restricted(objective.gauss_newton(optimum));
+  result.density = {optimum.activations(which), optimum.gradient(which), h, prior.lower(which),
+                    prior.upper(which)};
+  // What is left of the slope inside the bounds is how far the optimiser went.
+  for (Eigen::Index i = 0; i < result.density.mode.size(); ++i) {
+    BoxGaussian& d = result.density;
+    const bool low = d.mode[i] < d.lower[i] + bound_margin && d.slope[i] > 0;
+    const bool high = d.mode[i] > d.upper[i] - bound_margin && d.slope[i] < 0;
+    if (!low && !high) d.slope[i] = 0;
   }
-  const double total = cumulative.back();
-  mean /= total, square /= total;
+  return result;
+}
+
+MarginalSummary summarise(Vector samples, double mode, double lower, double upper) {
+  std::sort(samples.begin(), samples.end());
   const auto quantile = [&](double p) {
-    const auto it = std::lower_bound(cumulative.begin(), cumulative.end(), p * total);
-    const auto i = std::max<std::ptrdiff_t>(1, it - cumulative.begin());
-    const double part = (p * total - cumulative[size_t(i) - 1]) /
-                        std::max(1e-300, cumulative[size_t(i)] - cumulative[size_t(i) - 1]);
-    return low + cell * (double(i) - 1 + part);
+    return samples[std::min(samples.size() - 1, Eigen::Index(p * double(samples.size())))];
   };
-  MarginalSummary s{std::sqrt(std::max(0.0, square - mean * mean)), 0, 1};
-  // Near a bound the central interval would leave the mode out; then it is one-sided as well.
-  const bool from_zero = at_lower || m.mode < quantile(0.05);
-  const bool to_one = at_upper || m.mode > quantile(0.95);
-  s.low = from_zero ? 0.0 : quantile(to_one ? 0.1 : 0.05);
-  s.high = to_one ? 1.0 : quantile(from_zero ? 0.9 : 0.95);
+  const double mean = samples.mean();
+  MarginalSummary s{std::sqrt((samples.array() - mean).square().mean()), lower, upper};
+  const bool from_lower = mode < quantile(0.05) || mode <= lower + bound_margin;
+  const bool to_upper = mode > quantile(0.95) || mode >= upper - bound_margin;
+  if (!from_lower) s.low = quantile(to_upper ? 0.1 : 0.05);
+  if (!to_upper) s.high = quantile(from_lower ? 0.9 : 0.95);
   return s;
+}
+
+std::vector<TradeOff> unseen_directions(const Matrix& jacobian, const Matrix& prior_precision,
+                                        const std::vector<Command>& commands) {
+  constexpr double part = 0.35;  // of a unit direction: less does not name a command
+  std::vector<TradeOff> groups;
+  const Matrix information = jacobian.transpose() * jacobian;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(information, prior_precision);
+  for (Eigen::Index k = 0; k < information.rows(); ++k) {
+    if (eigen.eigenvalues()[k] >= 1) break;  // ascending
+    const Vector v = eigen.eigenvectors().col(k);
+    Eigen::Index largest = 0;
+    v.cwiseAbs().maxCoeff(&largest);
+    TradeOff group;
+    for (Eigen::Index i = 0; i < v.size(); ++i)
+      if (std::abs(v[i]) > part * v.norm())
+        group.push_back({commands[size_t(i)].name, v[i] / v[largest] * commands[size_t(i)].scale});
+    if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
+      groups.push_back(group);
+  }
+  return groups;
 }
 
 double chi_square_tail(double chi2, double dof) {
@@ -89,47 +98,57 @@ double chi_square_tail(double chi2, double dof) {
 void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
                          const Comparison& comparison, Answer& answer) {
   const auto& commands = objective.commands();
+  const PriorTerms& prior = objective.prior();
   const Matrix rough = objective.gauss_newton(optimum);
   const Vector& z = optimum.activations;
-  const Eigen::Index n = z.size();
-  std::vector<Eigen::Index> free;
-  std::vector<bool> lower(size_t(n), false), upper(size_t(n), false);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    lower[size_t(i)] = z[i] < bound_margin && optimum.gradient[i] > 0;
-    upper[size_t(i)] = z[i] > 1 - bound_margin && optimum.gradient[i] < 0;
-    if (!lower[size_t(i)] && !upper[size_t(i)]) free.push_back(i);
-  }
-  const Eigen::LLT<Matrix> rough_factor(Matrix(rough(free, free)));
-  Eigen::LLT<Matrix> factor(Matrix(objective.hessian(optimum)(free, free)));
-  if (factor.info() != Eigen::Success) factor = rough_factor;
-  const Eigen::Index count = Eigen::Index(free.size());
-  const Matrix covariance = factor.solve(Matrix::Identity(count, count));
+  const LocalPosterior posterior = local_posterior(objective, optimum);
+  const auto& which = posterior.which;
+  const Matrix samples = sample(posterior.density, sample_count);
+  const Matrix precision = prior.hessian()(which, which);
+  const Vector pull = Vector(prior.rows.transpose() * prior.values)(which);
+  const Vector expected = precision.llt()
+                              .solve(pull)
+                              .cwiseMax(posterior.density.lower)
+                              .cwiseMin(posterior.density.upper);
+  const Matrix before = sample({expected, precision * expected - pull, precision,
+                                posterior.density.lower, posterior.density.upper},
+                               sample_count);
 
-  answer.commands.clear();
+  answer.commands.clear(), answer.along.clear();
   std::vector<std::string> at_maximum, at_zero;
-  for (Eigen::Index i = 0, f = 0; i < n; ++i) {
-    const auto& command = commands[size_t(i)];
-    const bool low = lower[size_t(i)], high = upper[size_t(i)];
-    Marginal m{z[i], 0, 0};
-    if (low || high) {
-      // Gauss-Newton: across an active bound the exact Hessian may be indefinite.
-      const Vector cross = rough(free, i);
-      m.slope = optimum.gradient[i];
-      m.curvature = rough(i, i) - (free.empty() ? 0.0 : cross.dot(rough_factor.solve(cross)));
-      (high ? at_maximum : at_zero).push_back(command.name);
-    } else {
-      m.curvature = 1 / covariance(f, f);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0, f = 0; i < z.size(); ++i) {
+    const Command& c = commands[size_t(i)];
+    CommandEstimate e{c.name, z[i] * c.scale, c.scale, c.unit};
+    e.low = e.high = e.force;
+    e.fixed = prior.fixed(i);
+    if (!e.fixed) {
+      const Vector drawn = samples.row(f);
+      const auto s = summarise(drawn, z[i], prior.lower[i], prior.upper[i]);
+      const Vector believed = before.row(f);
+      const double spread = std::sqrt((believed.array() - believed.mean()).square().mean());
+      e.sd = s.sd * c.scale, e.low = s.low * c.scale, e.high = s.high * c.scale;
+      e.information_bits = std::max(0.0, std::log2(spread / std::max(1e-12, s.sd)));
+      e.at_lower = z[i] < prior.lower[i] + bound_margin && optimum.gradient[i] > 0;
+      e.at_upper = z[i] > prior.upper[i] - bound_margin && optimum.gradient[i] < 0;
+      if (!e.at_lower && !e.at_upper) free.push_back(i);
       ++f;
     }
-    const auto s = summarise(m, low, high);
-    const double unit = command.max_force;
-    answer.commands.push_back(
-        {command.name, z[i] * unit, unit, s.sd * unit, s.low * unit, s.high * unit, low, high});
+    if (c.kind == Command::Kind::muscle) {
+      if (e.at_upper) at_maximum.push_back(c.name);
+      if (e.at_lower) at_zero.push_back(c.name);
+    }
+    (c.kind == Command::Kind::muscle ? answer.commands : answer.along).push_back(std::move(e));
   }
-  answer.unidentified = unseen_directions(optimum.jacobian, objective.effort_weight(), commands);
+  std::vector<Command> open;
+  for (auto i : which) open.push_back(commands[size_t(i)]);
+  answer.unidentified = unseen_directions(optimum.jacobian(Eigen::all, which), precision, open);
+  answer.log_evidence = -optimum.value + log_integral(posterior.density);
 
   const Matrix j_free = optimum.jacobian(Eigen::all, free);
-  const double used = free.empty() ? 0.0 : (j_free * covariance * j_free.transpose()).trace();
+  const double used =
+      free.empty() ? 0.0
+                   : (j_free * Matrix(rough(free, free)).llt().solve(j_free.transpose())).trace();
   const double dof = std::max(1.0, double(optimum.residuals.values.size()) - used);
   const double chi2 = optimum.residuals.values.squaredNorm();
   answer.chi2_per_dof = chi2 / dof;

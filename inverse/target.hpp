@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "inverse/head_pose.hpp"
 #include "inverse/tongue_line.hpp"
 
 namespace genio {
@@ -15,15 +16,19 @@ struct CurvePoint {
   double sigma;   ///< noise across the contour [m]
 };
 
-/// A marked point of the tongue, as in electromagnetic articulography.
+/// A point of the tissue that was followed: a marked point of the surface, as in electromagnetic
+/// articulography, or one of a volume registration.
 struct FleshPoint {
-  int node;
-  Vec3 position;  ///< [m]; y is NaN where it was not measured
-  double sigma;   ///< [m], each coordinate
+  std::vector<std::pair<int, double>> at;  ///< nodes and their shares
+  Vec3 position;                           ///< [m]; y is NaN where it was not measured
+  double sigma;                            ///< [m], each coordinate
   std::string name;
+
+  Vec3 on(const Positions& x) const;
 };
 
-/// A point of the tongue's surface in 3D; its place on the surface is not known.
+/// A point of the tongue's surface in 3D, of a slice or a scan; its place on the surface is not
+/// known.
 struct SurfacePoint {
   Vec3 position;  ///< [m]
   double sigma;   ///< [m]
@@ -33,22 +38,36 @@ struct Target {
   std::vector<CurvePoint> curve;
   std::vector<FleshPoint> flesh;
   std::vector<SurfacePoint> surface;
+  /// Degrees of freedom of Student's t noise, whose outliers count little; 0: Gaussian noise.
+  double outlier_dof = 0;
+
   bool empty() const { return curve.empty() && flesh.empty() && surface.empty(); }
   /// True where nothing was measured off the midsagittal plane: left and right cannot be told
   /// apart.
   bool midsagittal() const;
+  /// Middle of its points in the midsagittal plane, (x, z) [m].
+  Vec2 middle() const;
 };
+
+/// Nodes and shares of the tissue point that lies at `rest` in the rest shape [m]. Throws
+/// InputError when that is outside the tongue.
+std::vector<std::pair<int, double>> tissue_point(const HexMesh& mesh, const Vec3& rest);
 
 /// The midsagittal line of the shape `x` as a measurement of `count` points.
 Target curve_target(const Model& model, const Positions& x, int count, double sigma);
 
-/// Noise-weighted residuals and their derivative with respect to the nodal positions.
+/// Noise-weighted residuals and their derivatives.
 struct Residuals {
-  Vector values;  ///< distance over sigma
+  /// Distance over sigma r; with Student's t noise sign(r) sqrt(nu log(1 + r^2 / nu)), whose half
+  /// square is the log-likelihood's loss (Lange, Little & Taylor 1989, for fixed nu, scaled to unit
+  /// curvature at 0).
+  Vector values;
   std::vector<std::vector<std::pair<int, Vec3>>>
       gradient;              ///< d value / d x_node [1/m], a row each
+  Matrix pose;               ///< d value / d (shift x, shift z, turn), a row each
   Vector distances;          ///< unweighted, one a point [m]
   std::vector<Vec3> places;  ///< where on the model, one a point [m]
+  int outliers = 0;          ///< values beyond 3 sigma
   double rms = 0, max = 0;   ///< of distances [m]
 };
 
@@ -56,16 +75,15 @@ struct Residuals {
 class Comparison {
  public:
   Comparison(const Model& model, Target target);
-  Residuals operator()(const Positions& x) const;
+  Residuals operator()(const Positions& x, const HeadPose& pose = {}) const;
   const Target& target() const { return target_; }
   const TongueLine& line() const { return line_; }
 
  private:
-  void compare_surface(const Positions& x, Residuals& r) const;
-
-  const Model* model_;
   Target target_;
   TongueLine line_;
+  std::vector<std::array<int, 3>> triangles_;  // of the surface
+  Vec2 middle_;
 };
 
 /// d residuals / d parameters: rows as in Residuals, `positions` = dx/dp (3 n x count).

@@ -13,7 +13,9 @@ AnswerView view_of(const Model& model, const Target& target, const Answer& a,
   AnswerView v;
   v.title = title;
   v.status = to_string(a.status), v.message = a.message, v.verdict = to_string(a.verdict);
-  v.commands = a.commands, v.unidentified = a.unidentified;
+  v.commands = a.commands, v.along = a.along, v.trade_offs = a.unidentified;
+  for (const TradeOff& trade : a.unidentified) v.unidentified.push_back(names(trade));
+  v.weight = a.weight, v.alternatives = a.alternatives, v.outliers = a.residuals.outliers;
   v.rms_mm = 1e3 * a.rms, v.max_mm = 1e3 * a.max, v.chi2_per_dof = a.chi2_per_dof;
   v.wall_s = a.wall_s, v.iterations = a.iterations, v.factorizations = a.factorizations;
   for (const auto& p : target.curve) v.measured.push_back(p.position);
@@ -26,16 +28,35 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   nlohmann::json j;
   j["frame"] = frame;
   j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
-  for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation"})
+  for (const char* key :
+       {"forces_N", "sd_N", "interval90_N", "activation", "information_bits", "estimated"})
     j[key] = nlohmann::json::object();
   for (const auto& c : v.commands) {
     j["forces_N"][c.name] = c.force;
     j["sd_N"][c.name] = c.sd;
     j["interval90_N"][c.name] = {c.low, c.high};
     j["activation"][c.name] = c.force / c.max_force;
+    j["information_bits"][c.name] = c.information_bits;
   }
+  for (const auto& c : v.along)
+    j["estimated"][c.name] = {
+        {"value", c.force}, {"unit", c.unit}, {"sd", c.sd}, {"interval90", {c.low, c.high}}};
   j["rms_mm"] = v.rms_mm, j["max_mm"] = v.max_mm, j["chi2_per_dof"] = v.chi2_per_dof;
   j["unidentified"] = v.unidentified;
+  j["trade_offs"] = nlohmann::json::array();
+  for (const TradeOff& trade : v.trade_offs) {
+    nlohmann::json one;
+    for (const Share& share : trade) one[share.name] = share.amount;
+    j["trade_offs"].push_back(std::move(one));
+  }
+  j["weight"] = v.weight;
+  j["alternatives"] = nlohmann::json::array();
+  for (const Alternative& other : v.alternatives) {
+    nlohmann::json one = {{"weight", other.weight}, {"rms_mm", 1e3 * other.rms}};
+    for (const auto& c : other.commands) one["forces_N"][c.name] = c.force;
+    j["alternatives"].push_back(std::move(one));
+  }
+  j["outliers"] = v.outliers;
   j["ipopt_iterations"] = v.iterations, j["factorizations"] = v.factorizations;
   j["wall_s"] = v.wall_s;
   return j;
@@ -49,6 +70,9 @@ std::string to_table(const AnswerView& v) {
   for (const auto& c : v.commands)
     out += fmt::format("{:<8} {:9.2f} {:8.1f} {:9.2f}   {:.2f} to {:.2f}\n", c.name, c.force,
                        100 * c.force / c.max_force, c.sd, c.low, c.high);
+  for (const auto& c : v.along)
+    out += fmt::format("{:<18} {:.3g} +- {:.2g} {}   {:.3g} to {:.3g}\n", c.name, c.force, c.sd,
+                       c.unit, c.low, c.high);
   if (!v.commands.empty())
     out += fmt::format("fit      RMS {:.2f} mm, max {:.2f} mm, chi2/dof {:.2f}\n", v.rms_mm,
                        v.max_mm, v.chi2_per_dof);
@@ -56,6 +80,15 @@ std::string to_table(const AnswerView& v) {
     out += fmt::format("unseen   the data {}: {}\n",
                        group.size() > 1 ? "cannot tell apart" : "say little about",
                        fmt::join(group, ", "));
+  for (const auto& other : v.alternatives) {
+    out += fmt::format("also     weight {:.2f} (this one {:.2f}), RMS {:.2f} mm:", other.weight,
+                       v.weight, 1e3 * other.rms);
+    for (const auto& c : other.commands)
+      if (c.force > 0.01 * c.max_force) out += fmt::format(" {} {:.2f} N", c.name, c.force);
+    out += "\n";
+  }
+  if (v.outliers > 0)
+    out += fmt::format("outliers {} values beyond three standard deviations\n", v.outliers);
   out += fmt::format("status   {}\nverdict  {}{}{}\n", v.status, v.verdict,
                      v.message.empty() ? "" : ": ", v.message);
   return out;

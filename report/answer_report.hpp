@@ -13,7 +13,12 @@ namespace genio {
 struct AnswerView {
   std::string title, status, message, verdict;
   std::vector<CommandEstimate> commands;
+  std::vector<CommandEstimate> along;  ///< parameters and head pose
   std::vector<std::vector<std::string>> unidentified;
+  std::vector<TradeOff> trade_offs;  ///< of each unidentified group
+  double weight = 1;
+  std::vector<Alternative> alternatives;
+  int outliers = 0;
   double rms_mm = 0, max_mm = 0, chi2_per_dof = 0, wall_s = 0;
   int iterations = 0, factorizations = 0;
   std::vector<Vec2> measured, predicted;  ///< midsagittal, (x, z) [m]

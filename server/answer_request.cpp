@@ -47,7 +47,7 @@ void fill(const Model& model, const Answer& a, command_reply_t& reply) {
   }
   reply.muscle_count = int(reply.muscle.size());
   for (const auto& group : a.unidentified)
-    reply.unidentified.push_back(fmt::format("{}", fmt::join(group, "+")));
+    reply.unidentified.push_back(fmt::format("{}", fmt::join(names(group), "+")));
   reply.group_count = int(reply.unidentified.size());
   reply.rms_mm = 1e3 * a.rms, reply.max_mm = 1e3 * a.max, reply.chi2_per_dof = a.chi2_per_dof;
   if (a.shape.size() > 0)

@@ -29,7 +29,7 @@ TEST(Comparison, GradientIsTheDerivativeOfTheResiduals) {
   Target t = curve_target(m, m.rest, 20, 5e-4);
   for (auto& p : t.curve) p.position += Vec2(1e-3, 1.5e-3);
   t.curve.push_back({Vec2(0.12, 0.055), 1e-3});  // beyond the end of the line
-  t.flesh.push_back({m.landmarks.tip, Vec3(0.055, std::nan(""), 0.1), 1e-3, "tip"});
+  t.flesh.push_back({{{m.landmarks.tip, 1.0}}, Vec3(0.055, std::nan(""), 0.1), 1e-3, "tip"});
   t.surface.push_back({Vec3(0.095, 0.012, 0.118), 1e-3});
   const Comparison compare(m, t);
   const Residuals r = compare(m.rest);

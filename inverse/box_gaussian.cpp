@@ -1,0 +1,116 @@
+#include "inverse/box_gaussian.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace genio {
+namespace {
+
+constexpr int warming = 100;     // samples left out
+constexpr double inside = 1e-9;  // of the box: where the first trajectory starts off a bound
+constexpr int most_bounces = 2000;
+constexpr double pressing = 30;  // slope at a bound, in units of the Gaussian's own
+
+/// First time in (0, end] at which f.(a sin t + b cos t) + c falls to zero; `end` when it never
+/// does.
+double hit(double fa, double fb, double c, double end) {
+  const double size = std::hypot(fa, fb);
+  if (!(size > std::abs(c))) return end;
+  // size cos(t - phase) = -c, on its way down
+  const double phase = std::atan2(fa, fb);
+  double t = phase + std::acos(-c / size);
+  t = std::fmod(t, 2 * std::numbers::pi);
+  if (t < 0) t += 2 * std::numbers::pi;
+  return std::min(t, end);
+}
+
+/// Hamiltonian Monte Carlo on all of the unknowns.
+Matrix bouncing(const BoxGaussian& g, int count, std::mt19937_64& random) {
+  const Eigen::Index n = g.mode.size();
+  const Eigen::LLT<Matrix> factor(g.hessian);
+  if (factor.info() != Eigen::Success) throw std::invalid_argument("H is not positive definite");
+  const Vector centre = g.mode - factor.solve(g.slope);
+  // z = centre + R y with y standard normal; the bounds are rows . y + offset >= 0.
+  const Matrix r = factor.matrixU().solve(Matrix::Identity(n, n));
+  Matrix rows(2 * n, n);
+  Vector offset(2 * n);
+  rows << r, -r;
+  offset << centre - g.lower, g.upper - centre;
+  const Vector norms = rows.rowwise().squaredNorm();
+  const Vector slack = inside * (g.upper - g.lower);
+  const Vector start = g.mode.cwiseMax(g.lower + slack).cwiseMin(g.upper - slack);
+  Vector y = factor.matrixU() * (start - centre);
+  std::normal_distribution<double> normal;
+  Matrix samples(n, count);
+  for (int k = -warming; k < count; ++k) {
+    Vector v(n);
+    for (auto& e : v) e = normal(random);
+    double left = 0.5 * std::numbers::pi;
+    for (int bounce = 0; bounce < most_bounces && left > 0; ++bounce) {
+      const Vector a = rows * v, b = rows * y;
+      double first = left;
+      Eigen::Index which = -1;
+      for (Eigen::Index i = 0; i < 2 * n; ++i)
+        if (const double t = hit(a[i], b[i], offset[i], left); t < first) first = t, which = i;
+      const Vector moved = std::sin(first) * v + std::cos(first) * y;
+      v = std::cos(first) * v - std::sin(first) * y;
+      y = moved;
+      left -= first;
+      if (which < 0) break;
+      const auto f = rows.row(which);
+      v -= 2 * f.dot(v) / norms[which] * f.transpose();
+    }
+    if (k >= 0) samples.col(k) = (centre + r * y).cwiseMax(g.lower).cwiseMin(g.upper);
+  }
+  return samples;
+}
+
+}  // namespace
+
+Matrix sample(const BoxGaussian& g, int count) {
+  std::mt19937_64 random(20140601);
+  // Against a bound that presses hard a trajectory would bounce for ever. There the density is an
+  // exponential too narrow for the others to notice.
+  std::vector<Eigen::Index> soft, hard;
+  for (Eigen::Index i = 0; i < g.mode.size(); ++i)
+    (std::abs(g.slope[i]) > pressing * std::sqrt(g.hessian(i, i)) ? hard : soft).push_back(i);
+  Matrix samples(g.mode.size(), count);
+  std::uniform_real_distribution<double> uniform;
+  for (auto i : hard) {
+    const double rate = std::abs(g.slope[i]), width = g.upper[i] - g.lower[i];
+    for (int k = 0; k < count; ++k) {
+      const double off = -std::log1p(uniform(random) * std::expm1(-rate * width)) / rate;
+      samples(i, k) = g.slope[i] > 0 ? g.lower[i] + off : g.upper[i] - off;
+    }
+  }
+  if (soft.empty()) return samples;
+  samples(soft, Eigen::all) =
+      bouncing({g.mode(soft), g.slope(soft), g.hessian(soft, soft), g.lower(soft), g.upper(soft)},
+               count, random);
+  return samples;
+}
+
+double log_integral(const BoxGaussian& g) {
+  double result = 0;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < g.mode.size(); ++i) {
+    const bool pressed =
+        (g.mode[i] <= g.lower[i] && g.slope[i] > 0) || (g.mode[i] >= g.upper[i] && g.slope[i] < 0);
+    // A weak slope leaves a half Gaussian.
+    const double width = std::sqrt(0.5 * std::numbers::pi / g.hessian(i, i));
+    if (pressed) result += std::log(std::min(1 / std::abs(g.slope[i]), width));
+    else free.push_back(i);
+  }
+  if (free.empty()) return result;
+  const Eigen::LLT<Matrix> factor(Matrix(g.hessian(free, free)));
+  const Matrix l = factor.matrixL();
+  return result + 0.5 * double(free.size()) * std::log(2 * std::numbers::pi) -
+         l.diagonal().array().log().sum();
+}
+
+}  // namespace genio

@@ -1,0 +1,167 @@
+#include "inverse/prior.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "forward/nearest_name.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double pose_range = 4;  // standard deviations that a head pose may reach
+
+std::vector<std::string> names(const std::vector<Command>& unknowns) {
+  std::vector<std::string> result;
+  for (const Command& c : unknowns) {
+    result.push_back(c.name);
+    if (const auto both = bilateral_name(c.name); both != c.name) result.push_back(both);
+  }
+  return result;
+}
+
+/// Unknown muscles that a name speaks of: itself or its two sides.
+std::vector<Eigen::Index> muscles_named(const std::vector<Command>& unknowns,
+                                        const std::string& name, const char* who) {
+  std::vector<Eigen::Index> result;
+  for (size_t i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i].kind == Command::Kind::muscle &&
+        (unknowns[i].name == name || bilateral_name(unknowns[i].name) == name))
+      result.push_back(Eigen::Index(i));
+  if (result.empty())
+    throw InputError(fmt::format("{} {}: no such muscle among the unknowns; did you mean {}?", who,
+                                 name, nearest_name(name, names(unknowns))));
+  return result;
+}
+
+/// Collects rows w.z = v with a standard deviation.
+class Rows {
+ public:
+  explicit Rows(Eigen::Index unknowns) : size_(unknowns) {}
+  void add(const Vector& weights, double value, double sd) {
+    rows_.push_back(weights / sd), values_.push_back(value / sd);
+  }
+  void add(Eigen::Index i, double value, double sd) { add(Vector::Unit(size_, i), value, sd); }
+  void into(PriorTerms& terms) const {
+    terms.rows.resize(Eigen::Index(rows_.size()), size_);
+    for (size_t k = 0; k < rows_.size(); ++k)
+      terms.rows.row(Eigen::Index(k)) = rows_[k].transpose();
+    terms.values = Eigen::Map<const Vector>(values_.data(), Eigen::Index(values_.size()));
+  }
+
+ private:
+  Eigen::Index size_;
+  std::vector<Vector> rows_;
+  std::vector<double> values_;
+};
+
+void need_positive(double sd, const char* what) {
+  if (!(sd > 0) || !std::isfinite(sd))
+    throw InputError(fmt::format("{}: standard deviation {}; expected a number above 0", what, sd));
+}
+
+void hold_fixed(const Prior& prior, const std::vector<Command>& unknowns, PriorTerms& terms) {
+  for (const auto& [name, force] : prior.fixed) {
+    const auto which = muscles_named(unknowns, name, "fixed");
+    double maximum = 0;
+    for (auto i : which) maximum += unknowns[size_t(i)].scale;
+    if (!(force >= 0 && force <= maximum * (1 + 1e-12)))
+      throw InputError(
+          fmt::format("fixed {}: force {} N; expected 0 to {} N", name, force, maximum));
+    for (auto i : which) terms.lower[i] = terms.upper[i] = std::min(1.0, force / maximum);
+  }
+}
+
+}  // namespace
+
+std::vector<Command> unknowns(const Model& model, const Prior& prior, bool bilateral) {
+  std::vector<Command> result = muscle_commands(model, bilateral);
+  for (const auto& [name, belief] : prior.parameters) {
+    need_positive(belief.sd, name.c_str());
+    const int k = parameter_index(model, name);
+    const auto& info = model.parameters[size_t(k)].info;
+    if (!(belief.mean >= info.lower && belief.mean <= info.upper))
+      throw InputError(fmt::format("parameter {}: mean {} {}; expected {} to {}", name, belief.mean,
+                                   info.unit, info.lower, info.upper));
+    // Bounds may be far beyond what is believed; the unit is what may be reached.
+    const double reach = std::min(std::max(std::abs(info.lower), std::abs(info.upper)),
+                                  std::abs(belief.mean) + pose_range * belief.sd);
+    result.push_back({name,
+                      reach,
+                      {k},
+                      {1.0},
+                      Command::Kind::parameter,
+                      info.unit,
+                      std::max(-1.0, info.lower / reach),
+                      std::min(1.0, info.upper / reach)});
+  }
+  if (prior.head_pose) {
+    const auto& pose = *prior.head_pose;
+    need_positive(pose.shift_sd, "head_pose shift");
+    need_positive(pose.turn_sd, "head_pose turn");
+    for (const char* name : {"head_pose.x", "head_pose.z"})
+      result.push_back({name, pose_range * pose.shift_sd, {}, {}, Command::Kind::pose, "m", -1, 1});
+    result.push_back(
+        {"head_pose.turn", pose_range * pose.turn_sd, {}, {}, Command::Kind::pose, "rad", -1, 1});
+  }
+  return result;
+}
+
+PriorTerms prior_terms(const Prior& prior, const std::vector<Command>& unknowns) {
+  const Eigen::Index n = Eigen::Index(unknowns.size());
+  need_positive(prior.effort_sd, "effort");
+  PriorTerms terms{{}, {}, Vector(n), Vector(n)};
+  Rows rows(n);
+  std::vector<bool> measured(unknowns.size(), false);
+  for (const auto& [name, belief] : prior.emg) {
+    need_positive(belief.sd, name.c_str());
+    for (auto i : muscles_named(unknowns, name, "EMG of")) {
+      rows.add(i, belief.mean, belief.sd);
+      measured[size_t(i)] = true;
+    }
+  }
+  Vector share = Vector::Zero(n);
+  Eigen::Index muscles = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Command& c = unknowns[size_t(i)];
+    terms.lower[i] = c.lower, terms.upper[i] = c.upper;
+    if (c.kind == Command::Kind::muscle) {
+      if (!measured[size_t(i)]) rows.add(i, 0, prior.effort_sd);
+      share[i] = 1, ++muscles;
+      for (Eigen::Index j = 0; j < i; ++j)
+        if (prior.symmetry_sd && unknowns[size_t(j)].kind == Command::Kind::muscle &&
+            bilateral_name(unknowns[size_t(j)].name) == bilateral_name(c.name)) {
+          need_positive(*prior.symmetry_sd, "symmetry");
+          rows.add(Vector::Unit(n, i) - Vector::Unit(n, j), 0, *prior.symmetry_sd);
+        }
+    } else if (c.kind == Command::Kind::parameter) {
+      const Normal& belief = prior.parameters.at(c.name);
+      rows.add(i, belief.mean / c.scale, belief.sd / c.scale);
+    } else {
+      rows.add(i, 0, 1 / pose_range);
+    }
+  }
+  if (prior.cocontraction) {
+    need_positive(prior.cocontraction->sd, "cocontraction");
+    rows.add(share / double(muscles), prior.cocontraction->mean, prior.cocontraction->sd);
+  }
+  if (prior.before) {
+    need_positive(prior.before->sd, "smoothness");
+    if (prior.before->activations.size() != n)
+      throw std::invalid_argument("the frame before has other unknowns");
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (unknowns[size_t(i)].kind != Command::Kind::pose)
+        rows.add(i, prior.before->activations[i], prior.before->sd);
+  }
+  rows.into(terms);
+  hold_fixed(prior, unknowns, terms);
+  return terms;
+}
+
+Prior with_effort(Prior prior, double times) {
+  prior.effort_sd *= times;
+  return prior;
+}
+
+}  // namespace genio
