@@ -1,0 +1,178 @@
+#include "inverse/prior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "inverse/infer.hpp"
+#include "inverse/objective.hpp"
+#include "tests/forward/small_model.hpp"
+
+namespace genio {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PriorTest : public testing::Test {
+ protected:
+  double activation(const Answer& a, const std::string& name) {
+    for (const auto& c : a.commands)
+      if (c.name == name) return c.force / c.max_force;
+    ADD_FAILURE() << name;
+    return 0;
+  }
+  Target pulled(const std::vector<std::pair<const char*, double>>& forces, double sigma = 1e-3) {
+    Parameters p = default_parameters(m);
+    for (const auto& [name, f] : forces) set_command(m, name, f, p);
+    return curve_target(m, solve_equilibrium(m, p, m.rest, ws).x, 30, sigma);
+  }
+  std::string file(const std::string& name, const std::string& text) {
+    const fs::path folder = fs::temp_directory_path() / "genio_prior_test";
+    fs::create_directories(folder);
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+  }
+  std::string error(const std::string& path) {
+    try {
+      read_prior(path);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+  const Model m = read_model(test::generic_model());
+  Workspace ws{m};
+};
+
+TEST_F(PriorTest, TermsAreTheirOwnDerivatives) {
+  Prior prior;
+  prior.emg["GGP"] = {0.2, 0.05};
+  prior.symmetry_sd = 0.03;
+  prior.cocontraction = Normal{0.1, 0.02};
+  prior.parameters["elasticity.a10"] = {1000, 200};
+  prior.head_pose = Prior::HeadPose{1e-3, 0.02};
+  const auto u = unknowns(m, prior, false);
+  const PriorTerms t = prior_terms(prior, u);
+  const Vector z = Vector::Random(Eigen::Index(u.size())), d = Vector::Random(z.size());
+  const double h = 1e-4;
+  EXPECT_NEAR((t.value(z + h * d) - t.value(z - h * d)) / (2 * h), t.gradient(z).dot(d),
+              1e-8 * t.gradient(z).norm());
+  EXPECT_NEAR(((t.gradient(z + h * d) - t.gradient(z - h * d)) / (2 * h) - t.hessian() * d).norm(),
+              0, 1e-7 * (t.hessian() * d).norm());
+}
+
+TEST_F(PriorTest, SymmetryTiesTheSides) {
+  Prior prior;
+  prior.symmetry_sd = 1e-3;
+  const auto u = unknowns(m, prior, false);
+  const PriorTerms t = prior_terms(prior, u);
+  Vector even = Vector::Zero(Eigen::Index(u.size())), odd = even;
+  for (size_t i = 0; i < u.size(); ++i)
+    if (bilateral_name(u[i].name) == "GGP") {
+      even[Eigen::Index(i)] = 0.1;
+      odd[Eigen::Index(i)] = u[i].name == "GGP_L" ? 0.1 : -0.1;
+    }
+  EXPECT_GT(t.value(odd), 1e3 * t.value(even));
+}
+
+TEST_F(PriorTest, FixedMusclesStayWhereTheyAre) {
+  Prior prior;
+  prior.fixed["MH"] = 0;
+  prior.fixed["GGP"] = 2.5;
+  const Answer a = infer(m, pulled({{"GGP", 2.5}, {"SL", 0.8}}), prior, ws);
+  ASSERT_EQ(a.status, InferStatus::converged) << a.message;
+  for (const auto& c : a.commands) {
+    if (c.name != "MH" && c.name != "GGP") continue;
+    EXPECT_TRUE(c.fixed);
+    EXPECT_NEAR(c.force, c.name == "GGP" ? 2.5 : 0, 1e-9);
+    EXPECT_EQ(c.sd, 0);
+    EXPECT_EQ(c.low, c.high);
+  }
+  EXPECT_LT(1e3 * a.rms, 0.1);
+}
+
+TEST_F(PriorTest, EmgDecidesWhatTheShapeLeavesOpen) {
+  const Target t = pulled({{"GGP", 4}, {"TRANS", 2}});
+  Prior prior;
+  prior.emg["MH"] = {0.3, 0.01};
+  const Answer without = infer(m, t, Prior{}, ws), with = infer(m, t, prior, ws);
+  EXPECT_LT(activation(without, "MH"), 0.1);
+  EXPECT_NEAR(activation(with, "MH"), 0.3, 0.03);
+}
+
+TEST_F(PriorTest, CocontractionSetsTheMeanActivation) {
+  const Target t = pulled({{"GGP", 2}});
+  Prior prior;
+  prior.cocontraction = Normal{0.1, 0.002};
+  const Answer a = infer(m, t, prior, ws);
+  double sum = 0;
+  for (const auto& c : a.commands) sum += c.force / c.max_force / double(a.commands.size());
+  EXPECT_NEAR(sum, 0.1, 0.01);
+}
+
+TEST_F(PriorTest, AMovedHeadIsFoundAlong) {
+  Target t = pulled({{"GGP", 3}, {"SL", 1}}, 3e-4);
+  for (auto& p : t.curve) p.position += Vec2(1.5e-3, -1e-3);
+  Prior prior;
+  prior.head_pose = Prior::HeadPose{2e-3, 0.02};
+  const Answer a = infer(m, t, prior, ws);
+  ASSERT_EQ(a.along.size(), 3u);
+  EXPECT_EQ(a.verdict, Verdict::explained);
+  EXPECT_NEAR(a.along[0].force, -1.5e-3, 3 * a.along[0].sd);
+  EXPECT_NEAR(a.along[1].force, 1e-3, 3 * a.along[1].sd);
+  EXPECT_LT(a.along[0].sd, 2e-3);
+}
+
+TEST_F(PriorTest, HessianCountsParametersAndPoseToo) {
+  ModelDescription d = read_description(test::generic_model());
+  d.effects["jaw_opening"] = {{"angle", 1.0}};
+  const Model jaw = build_model(d, "generic");
+  Workspace own(jaw);
+  Prior prior;
+  prior.parameters["jaw_opening.angle"] = {1, 3};
+  prior.head_pose = Prior::HeadPose{2e-3, 0.05};
+  Target t = curve_target(jaw, jaw.rest, 30, 1e-3);
+  for (auto& p : t.curve) p.position += Vec2(1e-3, 2e-3);
+  const Comparison comparison(jaw, t);
+  const InferOptions options;
+  Objective objective(jaw, comparison, prior, options, own);
+  Vector z = Vector::Constant(Eigen::Index(objective.commands().size()), 0.03);
+  const Matrix hessian = objective.exact_hessian(*objective.derivatives(z));
+  for (Eigen::Index k = z.size() - 5; k < z.size(); ++k) {
+    const double h = 1e-4;
+    const Vector up = objective.derivatives(z + h * Vector::Unit(z.size(), k))->gradient;
+    const Vector down = objective.derivatives(z - h * Vector::Unit(z.size(), k))->gradient;
+    EXPECT_LT(((up - down) / (2 * h) - hessian.col(k)).norm(), 2e-3 * hessian.col(k).norm())
+        << objective.commands()[size_t(k)].name;
+  }
+}
+
+TEST_F(PriorTest, FilesSayWhatIsWrongAndWhere) {
+  EXPECT_NE(error(file("a.csv", "muscle,mean,sd\nGGP,2,0.1\n")).find("a.csv:2"), std::string::npos);
+  EXPECT_NE(error(file("b.csv", "muscle,average\n")).find("expected muscle,mean,sd"),
+            std::string::npos);
+  EXPECT_NE(error(file("c.toml", "effort = 1\n")).find("did you mean effort_sd"),
+            std::string::npos);
+  EXPECT_NE(error(file("d.toml", "[cocontraction]\nmean = 0.1\n")).find("'sd' is missing"),
+            std::string::npos);
+  file("emg.csv", "muscle,mean,sd\nGGP,0.2,0.1\n");
+  const Prior p = read_prior(file("e.toml",
+                                  "effort_sd = 0.3\nemg = \"emg.csv\"\n[fixed_N]\nMH = 0.5\n"
+                                  "[parameter.\"jaw_opening.angle\"]\nmean = 2\nsd = 1\n"
+                                  "[head_pose]\nshift_sd_mm = 2\nturn_sd_deg = 3\n"));
+  EXPECT_EQ(p.effort_sd, 0.3);
+  EXPECT_EQ(p.emg.at("GGP").mean, 0.2);
+  EXPECT_EQ(p.fixed.at("MH"), 0.5);
+  EXPECT_EQ(p.parameters.at("jaw_opening.angle").sd, 1);
+  EXPECT_NEAR(p.head_pose->shift_sd, 2e-3, 1e-12);
+  Prior wrong;
+  wrong.emg["GPG"] = {0.1, 0.1};
+  EXPECT_THROW(prior_terms(wrong, unknowns(m, wrong, true)), InputError);
+  wrong = {};
+  wrong.fixed["MH"] = 1e3;
+  EXPECT_THROW(prior_terms(wrong, unknowns(m, wrong, true)), InputError);
+}
+
+}  // namespace
+}  // namespace genio

@@ -1,0 +1,94 @@
+#include "inverse/target.hpp"
+
+#include <gtest/gtest.h>
+
+#include "inverse/infer.hpp"
+#include "tests/forward/small_model.hpp"
+
+namespace genio {
+namespace {
+
+class TargetTest : public testing::Test {
+ protected:
+  /// One target of every kind, a little off the rest shape.
+  Target mixed() const {
+    Target t = curve_target(m, m.rest, 12, 1e-3);
+    for (auto& p : t.curve) p.position += Vec2(4e-4, 7e-4);
+    t.flesh.push_back({{{m.landmarks.tip, 1.0}},
+                       node_position(m.rest, m.landmarks.tip) + Vec3(1e-3, 0, -1e-3),
+                       1e-3,
+                       "tip"});
+    t.flesh.push_back(
+        {tissue_point(m.mesh, inner()), inner() + Vec3(1e-3, 5e-4, 0), 2e-3, "volume"});
+    for (const Quad& q : {m.surface[3], m.surface[40]}) {
+      Vec3 middle = Vec3::Zero();
+      for (int a : q) middle += 0.25 * node_position(m.rest, a);
+      t.surface.push_back({middle + Vec3(3e-4, 2e-4, 5e-4), 1e-3});
+    }
+    return t;
+  }
+  Vec3 inner() const {
+    Vec3 p = Vec3::Zero();
+    for (int k = 0; k < 8; ++k)
+      p += (0.05 + 0.02 * k) * m.mesh.nodes[size_t(m.mesh.elements[100][size_t(k)])];
+    return p / (8 * 0.05 + 0.02 * 28);
+  }
+  const Model m = read_model(test::generic_model());
+};
+
+TEST_F(TargetTest, ATissuePointIsWhereItWasTaken) {
+  const auto shares = tissue_point(m.mesh, inner());
+  double sum = 0;
+  for (const auto& [node, share] : shares) sum += share;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_LT((FleshPoint{shares, {}, 1, ""}.on(m.rest) - inner()).norm(), 1e-9);
+  EXPECT_THROW(tissue_point(m.mesh, Vec3(0, 0, 0)), InputError);
+}
+
+TEST_F(TargetTest, ResidualsHaveTheirOwnDerivatives) {
+  for (const double dof : {0.0, 4.0}) {
+    Target t = mixed();
+    t.outlier_dof = dof;
+    const Comparison compare(m, t);
+    const HeadPose pose{Vec2(5e-4, -3e-4), 0.02};
+    const Residuals r = compare(m.rest, pose);
+    const Vector d = 1e-3 * Vector::Random(m.rest.size());
+    const double h = 1e-3;
+    const Vector quotient =
+        (compare(m.rest + h * d, pose).values - compare(m.rest - h * d, pose).values) / (2 * h);
+    const Vector exact = residual_jacobian(r, d);
+    // Surface points slide along their facet; their distance's derivative is exact all the same.
+    EXPECT_LT((quotient - exact).norm(), 1e-4 * exact.norm()) << dof;
+    for (int k = 0; k < 3; ++k) {
+      const double e = k < 2 ? 1e-7 : 1e-5;
+      HeadPose up = pose, down = pose;
+      (k < 2 ? up.shift[k] : up.turn) += e;
+      (k < 2 ? down.shift[k] : down.turn) -= e;
+      const Vector q = (compare(m.rest, up).values - compare(m.rest, down).values) / (2 * e);
+      EXPECT_LT((q - r.pose.col(k)).norm(), 1e-4 * q.norm()) << dof << " " << k;
+    }
+  }
+}
+
+TEST_F(TargetTest, AnOutlierCountsLittleUnderStudentsNoise) {
+  Workspace ws(m);
+  Parameters p = default_parameters(m);
+  set_command(m, "GGP", 3, p);
+  const auto e = solve_equilibrium(m, p, m.rest, ws);
+  const Target clean = curve_target(m, e.x, 40, 5e-4);
+  Target dirty = clean;
+  for (int k : {10, 11, 25}) dirty.curve[size_t(k)].position += Vec2(0, 0.012);
+  Target robust = dirty;
+  robust.outlier_dof = 4;
+  const auto off = [&](const Target& t) {
+    const Answer a = infer(m, t, Prior{}, ws);
+    EXPECT_EQ(a.status, InferStatus::converged) << a.message;
+    return Comparison(m, clean)(a.shape).rms;
+  };
+  const double plain = off(dirty), t_noise = off(robust);
+  EXPECT_LT(t_noise, 0.35 * plain);
+  EXPECT_LT(1e3 * t_noise, 0.3);
+}
+
+}  // namespace
+}  // namespace genio
