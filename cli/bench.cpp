@@ -33,7 +33,8 @@ int run(const BenchOptions& o) {
     j = bench::dynamic(o.model, o.data, tell);
   } else {
     const Model m = read_model(o.model);
-    if (o.what == "inverse") j = bench::recovery(m);
+    if (o.what == "blind") j = bench::blind(read_description(o.model), o.sample, tell);
+    else if (o.what == "inverse") j = bench::recovery(m);
     else if (o.what == "robustness") j = bench::robustness(m, o.sample, tell);
     else if (o.what == "service") j = bench::service(m);
     else
@@ -50,10 +51,10 @@ Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
   app.add_option(
          "what", o->what,
-         "forward, dynamic, robustness, verification, inverse, service, ultrasound, grenoble")
+         "forward, dynamic, robustness, verification, inverse, blind, service, ultrasound, grenoble")
       ->required()
       ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse",
-                             "service", "ultrasound", "grenoble"}));
+                             "blind", "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
   app.add_option("--data", o->data, "grenoble, dynamic, verification: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
