@@ -34,16 +34,6 @@ class Middles {
   std::map<Key, int> at_;
 };
 
-std::vector<int> with_middles(const std::vector<int>& nodes, const Middles& middle) {
-  std::vector<int> result;
-  for (size_t k = 0; k < nodes.size(); ++k) {
-    if (k > 0)
-      if (const int m = middle(nodes[k - 1], nodes[k]); m >= 0) result.push_back(m);
-    result.push_back(nodes[k]);
-  }
-  return result;
-}
-
 Fibre with_middles(const Fibre& fibre, const Middles& middle) {
   Fibre result;
   for (size_t k = 0; k < fibre.size(); ++k) {
@@ -71,7 +61,6 @@ ModelDescription refined(const ModelDescription& description) {
   const RefinedMesh fine = genio::refined(description.mesh, description.supports);
   const Middles middle(description.mesh, fine.mesh);
   d.mesh = fine.mesh, d.supports = fine.supports;
-  d.midsagittal = with_middles(description.midsagittal, middle);
   for (Muscle& muscle : d.muscles) {
     for (Fibre& fibre : muscle.fibres) fibre = with_middles(fibre, middle);
     std::vector<int> children;

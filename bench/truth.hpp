@@ -5,8 +5,9 @@
 
 namespace genio::bench {
 
-/// The same tongue with every element split in eight, its fibres and midsagittal line through the
-/// new nodes.
+/// The same tongue with every element split in eight and its fibres through the new nodes. The
+/// midsagittal line stays the smooth one through the old nodes: through the middles of chords it
+/// would lie flat.
 ModelDescription refined(const ModelDescription& description);
 
 /// The same tongue with its inner nodes shifted by a smooth random field that turns fibre segments
