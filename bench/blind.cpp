@@ -6,7 +6,7 @@
 
 #include "bench/benchmarks.hpp"
 #include "bench/truth.hpp"
-#include "inverse/infer.hpp"
+#include "inverse/multi_start.hpp"
 
 namespace genio::bench {
 namespace {
@@ -38,8 +38,9 @@ double median(std::vector<double> v) {
 
 Json blind(const ModelDescription& description, int count, const Progress& progress) {
   const Model model = build_model(description, "model");
-  const Model truth = build_model(refined(with_turned_fibres(description, fibre_turn, 1)), "truth");
+  const Model truth = build_model(refined(with_turned_fibres(description, fibre_turn, 2)), "truth");
   Workspace ws(model), truth_ws(truth);
+  AtlasCache atlas;
   const auto commands = muscle_commands(model, true);
   std::mt19937 random(2026);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -68,7 +69,7 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
     const Target clean = curve_target(truth, e.x, points, noise);
     Target target = clean;
     for (auto& q : target.curve) q.position += noise * Vec2(normal(random), normal(random));
-    const Answer a = infer(model, target, Prior{}, ws);
+    const Answer a = infer_from_starts(model, target, Prior{}, ws, atlas);
     ++converged.of;
     if (a.status != InferStatus::converged) {
       failures.push_back(a.message);

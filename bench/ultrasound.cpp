@@ -5,7 +5,7 @@
 
 #include "bench/benchmarks.hpp"
 #include "inverse/frame_target.hpp"
-#include "inverse/infer.hpp"
+#include "inverse/multi_start.hpp"
 
 namespace genio::bench {
 namespace {
@@ -25,14 +25,14 @@ std::vector<const ContourFrame*> middle_frames(const ContourFile& file) {
 }
 
 Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& transform,
-                  double noise, Workspace& ws) {
+                  double noise, Workspace& ws, AtlasCache& atlas) {
   Json j = {{"frame", frame.number}, {"label", frame.label}};
   const Target target = make_target(m, registered(m, frame, transform), noise);
   if (target.empty()) {
     j["status"] = "failed", j["message"] = frame.note;
     return j;
   }
-  const Answer a = infer(m, target, Prior{}, ws);
+  const Answer a = infer_from_starts(m, target, Prior{}, ws, atlas);
   j["status"] = to_string(a.status), j["verdict"] = to_string(a.verdict), j["message"] = a.message;
   j["rms_mm"] = 1e3 * a.rms, j["max_mm"] = 1e3 * a.max;
   j["wall_s"] = a.wall_s, j["factorizations"] = a.factorizations;
@@ -47,11 +47,12 @@ Json ultrasound(const Model& m, const std::string& contours, const std::string& 
   const ContourFile file = read_contours(contours);
   const Registration r = register_file(m, file, palate);
   Workspace ws(m);
+  AtlasCache atlas;
   Json frames = Json::array();
   std::vector<double> rms, seconds;
   int empty = 0;
   for (const ContourFrame* frame : middle_frames(file)) {
-    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws);
+    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws, atlas);
     if (progress)
       progress(fmt::format("{:>5}  {:<28} {:<10} {:<12} {:5.2f} mm {:6.2f} s  {}", frame->number,
                            frame->label, j["status"].get<std::string>(), j.value("verdict", ""),

@@ -4,7 +4,7 @@
 #include "cli/measured.hpp"
 #include "forward/model_file.hpp"
 #include "inverse/frame_target.hpp"
-#include "inverse/infer.hpp"
+#include "inverse/multi_start.hpp"
 #include "report/motion_report.hpp"
 
 namespace genio::cli {
@@ -17,7 +17,7 @@ struct InvertOptions {
   std::string model = default_model(), out;
   std::string prior;
   double deadline_s = 0;
-  int starts = 1;
+  int starts = 0;
   bool bilateral = false, robust = false, json = false;
 };
 
@@ -53,6 +53,7 @@ int run(const InvertOptions& o) {
   const auto targets = all_targets(model, measured, o.measured.target, o.robust);
   const Prior prior = o.prior.empty() ? Prior{} : checked_prior(model, o);
   Workspace ws(model);
+  AtlasCache atlas;
   InferOptions options;
   options.deadline_s = o.deadline_s;
   if (o.bilateral) options.bilateral = true;
@@ -65,7 +66,7 @@ int run(const InvertOptions& o) {
       view.title = frame_title(frame), view.status = "failed", view.verdict = "none";
       view.message = frame.note.empty() ? "the frame has no points" : frame.note;
     } else {
-      answer = infer_from_starts(model, targets[i], prior, ws, options, o.starts);
+      answer = infer_from_starts(model, targets[i], prior, ws, atlas, options, {o.starts});
       view = view_of(model, targets[i], answer, frame_title(frame));
       if (answer.status == InferStatus::converged)
         options.start = answer.activations, options.start_shape = answer.shape;
@@ -88,8 +89,10 @@ Runner add_invert(CLI::App& app) {
   app.add_option("--model", o->model, "Model folder or model.toml");
   add_measured_options(app, o->measured);
   app.add_option("--prior", o->prior, "What is believed before: TOML, or a CSV of EMG");
-  app.add_option("--starts", o->starts, "Starting points a frame; more find other answers that fit")
-      ->check(CLI::Range(1, 1000));
+  app.add_option(
+         "--starts", o->starts,
+         "Descents a frame; more find other answers that fit (0: until the shape is explained)")
+      ->check(CLI::Range(0, 1000));
   app.add_flag("--robust", o->robust, "Noise with outliers (Student's t)");
   app.add_flag("--bilateral", o->bilateral, "Left and right together");
   app.add_option("--deadline-s", o->deadline_s, "Time a frame may take");

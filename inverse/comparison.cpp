@@ -41,7 +41,7 @@ class Builder {
 
   /// One residual: its value, its derivative with respect to nodes, and to the moved point (x, z).
   void row(double r, std::vector<std::pair<int, Vec3>> gradient, const Vec2& point,
-           const Vec2& slope) {
+           const Vec2& slope, double sigma, int axis = -1) {
     double factor = 1;
     outliers_ += std::abs(r) > outlier;
     if (dof_ > 0) {
@@ -53,6 +53,7 @@ class Builder {
     values_.push_back(r);
     pose_.push_back(factor * moved_.by_pose(point, slope));
     gradient_.push_back(std::move(gradient));
+    rows_.push_back({int(places_.size()), axis, factor / sigma});
   }
   void point(double distance, const Vec3& place) {
     distances_.push_back(distance);
@@ -66,6 +67,7 @@ class Builder {
     for (size_t k = 0; k < pose_.size(); ++k) r.pose.row(Eigen::Index(k)) = pose_[k].transpose();
     r.gradient = std::move(gradient_);
     r.places = std::move(places_);
+    r.rows = std::move(rows_);
     r.outliers = outliers_;
     if (r.distances.size() > 0) {
       r.rms = std::sqrt(r.distances.squaredNorm() / double(r.distances.size()));
@@ -77,6 +79,7 @@ class Builder {
  private:
   const Moved& moved_;
   double dof_;
+  std::vector<Residuals::Row> rows_;
   std::vector<double> values_, distances_;
   std::vector<Vec3> pose_, places_;
   std::vector<std::vector<std::pair<int, Vec3>>> gradient_;
@@ -94,7 +97,7 @@ void compare_curve(const CurvePoint& point, const TongueLine& line, const Positi
     const Vec2 g = -w[Eigen::Index(k)] / point.sigma * c.normal;
     gradient.emplace_back(nodes[k], Vec3(g[0], 0, g[1]));
   }
-  rows.row(c.distance / point.sigma, std::move(gradient), q, c.normal / point.sigma);
+  rows.row(c.distance / point.sigma, std::move(gradient), q, c.normal / point.sigma, point.sigma);
   const Vec2 foot = q - c.distance * c.normal;
   rows.point(std::abs(c.distance), Vec3(foot[0], 0, foot[1]));
 }
@@ -110,7 +113,8 @@ void compare_flesh(const FleshPoint& point, const Positions& x, const Moved& mov
     const Vec3 axis = Vec3::Unit(i) / point.sigma;
     std::vector<std::pair<int, Vec3>> gradient;
     for (const auto& [node, share] : point.at) gradient.emplace_back(node, share * axis);
-    rows.row(off[i] / point.sigma, std::move(gradient), Vec2(q[0], q[2]), -Vec2(axis[0], axis[2]));
+    rows.row(off[i] / point.sigma, std::move(gradient), Vec2(q[0], q[2]), -Vec2(axis[0], axis[2]),
+             point.sigma, i);
   }
   rows.point(off.norm(), on);
 }
@@ -143,7 +147,7 @@ void compare_surface(const SurfacePoint& point, const std::vector<std::array<int
   std::vector<std::pair<int, Vec3>> gradient;
   for (int k = 0; k < 3; ++k) gradient.emplace_back(n[size_t(k)], -weight[size_t(k)] * slope);
   rows.row(sign * distance / point.sigma, std::move(gradient), Vec2(q[0], q[2]),
-           Vec2(slope[0], slope[2]));
+           Vec2(slope[0], slope[2]), point.sigma);
   rows.point(distance, foot);
 }
 
@@ -156,7 +160,7 @@ Vec3 FleshPoint::on(const Positions& x) const {
 }
 
 Comparison::Comparison(const Model& model, Target target)
-    : target_(std::move(target)), line_(model), middle_(target_.middle()) {
+    : target_(std::move(target)), line_(model), rest_(model.rest), middle_(target_.middle()) {
   if (!target_.surface.empty())
     for (const Quad& q : model.surface) {
       triangles_.push_back({q[0], q[1], q[2]});
@@ -171,6 +175,20 @@ Residuals Comparison::operator()(const Positions& x, const HeadPose& pose) const
   for (const auto& point : target_.flesh) compare_flesh(point, x, moved, rows);
   for (const auto& point : target_.surface) compare_surface(point, triangles_, x, moved, rows);
   return std::move(rows).result();
+}
+
+Matrix model_error_covariance(const Residuals& residuals, double sd, double length) {
+  const auto count = Eigen::Index(residuals.rows.size());
+  Matrix c = Matrix::Zero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const auto &a = residuals.rows[size_t(i)], &b = residuals.rows[size_t(j)];
+      if (a.axis != b.axis) continue;
+      const double apart =
+          (residuals.places[size_t(a.point)] - residuals.places[size_t(b.point)]).squaredNorm();
+      c(i, j) = c(j, i) = sd * sd * a.scale * b.scale * std::exp(-0.5 * apart / (length * length));
+    }
+  return c;
 }
 
 Matrix residual_jacobian(const Residuals& residuals, const Matrix& positions) {

@@ -52,7 +52,7 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
   start = start.cwiseMax(lower).cwiseMin(upper);
 
   Answer answer;
-  if (!warm) {
+  if (!warm || options.rough_start) {
     // From rest the first steps tend to set muscles against each other far beyond what the shape
     // needs. Effort that counts more keeps them near; its optimum is a start for the real one.
     InferOptions rough = options;
@@ -85,7 +85,7 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
       answer.residuals = point->residuals;
       answer.rms = point->residuals.rms;
       answer.max = point->residuals.max;
-      summarise_posterior(objective, *point, comparison, answer);
+      summarise_posterior(objective, *point, comparison, options.model_error, answer);
     } else {
       answer.status = objective.stopped() ? objective.stop_reason() : InferStatus::failed;
       answer.message = objective.last_failure();

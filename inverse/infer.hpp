@@ -18,9 +18,11 @@ struct InferOptions {
   double deadline_s = 0;          ///< 0: none
   int max_iterations = 60;
   double tolerance = 1e-4;               ///< of the fall of the objective still to be had
+  ModelError model_error;                ///< widens what the posterior claims
   Vector start;                          ///< activations to start from; empty: rest
-  std::optional<Positions> start_shape;  ///< the equilibrium shape of `start`
-  std::function<bool()> cancelled;       ///< asked between steps; true ends the work
+  std::optional<Positions> start_shape;  ///< the equilibrium shape near `start`
+  bool rough_start = false;         ///< `start` is only a guess: go near under more effort first
+  std::function<bool()> cancelled;  ///< asked between steps; true ends the work
   std::function<void(int iteration, double rms)> progress;  ///< rms in m
 };
 
@@ -81,13 +83,9 @@ struct Answer {
 /// The forces within [0, maximum] that minimise 1/2 sum (distance / sigma)^2 + 1/2 sum
 /// (activation / effort_sd)^2, by Ipopt with the exact gradient and the Gauss-Newton Hessian, and
 /// the Laplace posterior about them. Throws InputError for an empty target.
+///
+/// This is one descent from one start; multi_start.hpp has the search for all that fit.
 Answer infer(const Model& model, const Target& target, const Prior& prior, Workspace& ws,
              const InferOptions& options = {});
-
-/// infer() from rest and from `starts` - 1 draws of the prior: the likeliest optimum, with those
-/// that differ from it by more than the posterior's own spread as alternatives. Weights are shares
-/// of the Laplace evidence.
-Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
-                         Workspace& ws, const InferOptions& options, int starts);
 
 }  // namespace genio

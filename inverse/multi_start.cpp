@@ -1,14 +1,18 @@
+#include "inverse/multi_start.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "inverse/box_gaussian.hpp"
-#include "inverse/infer.hpp"
 
 namespace genio {
 namespace {
 
 constexpr double least_weight = 0.01;  // of an alternative worth telling
 constexpr double apart = 3;            // posterior standard deviations between distinct optima
+constexpr int patience = 4;            // descents for a target that no answer explains
+constexpr int warm_patience = 2;       // the same with a start of the caller's
+constexpr double leave_bound = 1e-2;   // activation
 
 /// Draws of the prior within its bounds, a column each.
 Matrix prior_draws(const PriorTerms& prior, int count) {
@@ -36,32 +40,37 @@ bool distinct(const Answer& a, const Answer& b) {
   return (a.shape - b.shape).cwiseAbs().maxCoeff() > 1e-3;
 }
 
-}  // namespace
-
-Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
-                         Workspace& ws, const InferOptions& options, int starts) {
-  std::vector<Answer> found = {infer(model, target, prior, ws, options)};
-  const auto commands = unknowns(model, prior, options.bilateral.value_or(target.midsagittal()));
-  const Matrix draws = prior_draws(prior_terms(prior, commands), std::max(0, starts - 1));
-  Answer total = found.front();
-  for (Eigen::Index k = 0; k < draws.cols(); ++k) {
-    InferOptions again = options;
-    again.start = draws.col(k);
-    again.start_shape.reset();
-    if (options.deadline_s > 0) {
-      again.deadline_s = options.deadline_s - total.wall_s;
-      if (again.deadline_s <= 0) break;
-    }
-    Answer a = infer(model, target, prior, ws, again);
-    total.wall_s += a.wall_s, total.iterations += a.iterations;
-    total.factorizations += a.factorizations, total.forward_solves += a.forward_solves;
-    if (a.status == InferStatus::cancelled) break;
-    if (a.status != InferStatus::converged) continue;
-    if (found.front().status != InferStatus::converged) found.clear();
-    found.push_back(std::move(a));
+/// Where to start from, in the order to try.
+std::vector<Atlas::Entry> all_starts(const Model& model, const Target& target, const Prior& prior,
+                                     Workspace& ws, AtlasCache& cache, const InferOptions& options,
+                                     int count) {
+  std::vector<Atlas::Entry> starts;
+  if (options.start.size() > 0)
+    starts.push_back({options.start, options.start_shape.value_or(Positions())});
+  if (int(starts.size()) == count) return starts;
+  const bool bilateral = options.bilateral.value_or(target.midsagittal());
+  const auto commands = unknowns(model, prior, bilateral);
+  const PriorTerms terms = prior_terms(prior, commands);
+  const Atlas& atlas = cache.get(model, prior, bilateral, ws);
+  for (const Atlas::Entry* e : nearest(atlas, Comparison(model, target), commands, terms)) {
+    if (int(starts.size()) == count) return starts;
+    starts.push_back({e->unknowns, e->shape});
+    // On a bound a barrier method sees nothing.
+    for (Eigen::Index i = 0; i < e->unknowns.size(); ++i)
+      if (commands[size_t(i)].kind == Command::Kind::muscle)
+        starts.back().unknowns[i] = std::max(e->unknowns[i], leave_bound);
   }
-  std::sort(found.begin(), found.end(),
-            [](const Answer& a, const Answer& b) { return a.log_evidence > b.log_evidence; });
+  const int drawn = count - int(starts.size());
+  const Matrix draws = prior_draws(terms, std::max(0, drawn));
+  for (int k = 0; k < drawn; ++k) starts.push_back({draws.col(k), {}});
+  return starts;
+}
+
+/// The likeliest of `found`, the distinct others as its alternatives.
+Answer weighed(std::vector<Answer> found) {
+  std::stable_sort(found.begin(), found.end(), [](const Answer& a, const Answer& b) {
+    return a.log_evidence > b.log_evidence;
+  });
   std::vector<Answer> kept;
   for (Answer& a : found)
     if (std::none_of(kept.begin(), kept.end(), [&](const Answer& k) { return !distinct(a, k); }))
@@ -74,8 +83,41 @@ Answer infer_from_starts(const Model& model, const Target& target, const Prior& 
     if (const double w = std::exp(kept[k].log_evidence - best.log_evidence) / sum;
         w >= least_weight)
       best.alternatives.push_back({w, kept[k].commands, kept[k].rms, kept[k].shape});
-  best.wall_s = total.wall_s, best.iterations = total.iterations;
-  best.factorizations = total.factorizations, best.forward_solves = total.forward_solves;
+  return best;
+}
+
+}  // namespace
+
+Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
+                         Workspace& ws, AtlasCache& atlas, const InferOptions& options,
+                         const StartOptions& start_options) {
+  if (target.empty()) throw InputError("the target has no points");
+  const bool until_explained = start_options.starts == 0;
+  const auto starts = all_starts(model, target, prior, ws, atlas, options,
+                                 !until_explained           ? start_options.starts
+                                 : options.start.size() > 0 ? warm_patience
+                                                            : patience);
+  std::vector<Answer> found;
+  Answer last;
+  double wall = 0;
+  int iterations = 0, factorizations = 0, solves = 0;
+  for (const Atlas::Entry& start : starts) {
+    InferOptions here = options;
+    here.start = start.unknowns;
+    here.start_shape.reset();
+    if (start.shape.size() > 0) here.start_shape = start.shape;
+    here.rough_start = &start != &starts.front() || options.start.size() == 0;
+    if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - wall) <= 0) break;
+    last = infer(model, target, prior, ws, here);
+    wall += last.wall_s, iterations += last.iterations;
+    factorizations += last.factorizations, solves += last.forward_solves;
+    if (last.status == InferStatus::converged) found.push_back(last);
+    if (last.status == InferStatus::cancelled || last.status == InferStatus::deadline) break;
+    if (until_explained && last.verdict == Verdict::explained) break;
+  }
+  Answer best = found.empty() ? last : weighed(std::move(found));
+  best.wall_s = wall, best.iterations = iterations;
+  best.factorizations = factorizations, best.forward_solves = solves;
   return best;
 }
 

@@ -24,6 +24,15 @@ std::string region(const TongueLine& line, const Positions& x, const Vec3& place
                            : "root";
 }
 
+/// Root mean square of the midsagittal line's displacement [m].
+double way_from_rest(const Comparison& comparison, const Positions& x) {
+  const auto& nodes = comparison.line().nodes();
+  double sum = 0;
+  for (int a : nodes)
+    sum += (node_position(x, a) - node_position(comparison.rest(), a)).squaredNorm();
+  return std::sqrt(sum / double(nodes.size()));
+}
+
 std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
@@ -54,17 +63,36 @@ LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint&
   return result;
 }
 
+LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
+                       const Matrix& covariance) {
+  LocalPosterior result = posterior;
+  BoxGaussian& d = result.density;
+  const Eigen::LLT<Matrix> factor(d.hessian);
+  const Matrix by_data = factor.solve(jacobian.transpose());
+  Matrix spread = factor.solve(Matrix::Identity(d.hessian.rows(), d.hessian.cols())) +
+                  by_data * covariance * by_data.transpose();
+  spread = 0.5 * (spread + spread.transpose()).eval();
+  const Vector to_centre = factor.solve(d.slope);
+  d.hessian = spread.llt().solve(Matrix::Identity(spread.rows(), spread.cols()));
+  d.hessian = 0.5 * (d.hessian + d.hessian.transpose()).eval();
+  d.slope = d.hessian * to_centre;  // the same centre
+  return result;
+}
+
 MarginalSummary summarise(Vector samples, double mode, double lower, double upper) {
   std::sort(samples.begin(), samples.end());
-  const auto quantile = [&](double p) {
-    return samples[std::min(samples.size() - 1, Eigen::Index(p * double(samples.size())))];
-  };
+  const Eigen::Index n = samples.size(), inside = Eigen::Index(std::ceil(0.9 * double(n)));
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 0; i + inside <= n; ++i)
+    if (samples[i + inside - 1] - samples[i] < samples[first + inside - 1] - samples[first])
+      first = i;
   const double mean = samples.mean();
-  MarginalSummary s{std::sqrt((samples.array() - mean).square().mean()), lower, upper};
-  const bool from_lower = mode < quantile(0.05) || mode <= lower + bound_margin;
-  const bool to_upper = mode > quantile(0.95) || mode >= upper - bound_margin;
-  if (!from_lower) s.low = quantile(to_upper ? 0.1 : 0.05);
-  if (!to_upper) s.high = quantile(from_lower ? 0.9 : 0.95);
+  MarginalSummary s{std::sqrt((samples.array() - mean).square().mean()),
+                    std::min(mode, samples[first]), std::max(mode, samples[first + inside - 1])};
+  // Where the density does not fall towards a bound, the interval reaches it.
+  const double near = 0.05 * (s.high - s.low);
+  if (s.low - lower < near) s.low = lower;
+  if (upper - s.high < near) s.high = upper;
   return s;
 }
 
@@ -96,13 +124,18 @@ double chi_square_tail(double chi2, double dof) {
 }
 
 void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
-                         const Comparison& comparison, Answer& answer) {
+                         const Comparison& comparison, const ModelError& error, Answer& answer) {
   const auto& commands = objective.commands();
   const PriorTerms& prior = objective.prior();
   const Matrix rough = objective.gauss_newton(optimum);
   const Vector& z = optimum.activations;
-  const LocalPosterior posterior = local_posterior(objective, optimum);
-  const auto& which = posterior.which;
+  const LocalPosterior narrow = local_posterior(objective, optimum);
+  const auto& which = narrow.which;
+  const Matrix covariance = model_error_covariance(
+      optimum.residuals,
+      std::max(error.least, error.part * way_from_rest(comparison, optimum.equilibrium.x)),
+      error.length);
+  const LocalPosterior posterior = widened(narrow, optimum.jacobian(Eigen::all, which), covariance);
   const Matrix samples = sample(posterior.density, sample_count);
   const Matrix precision = prior.hessian()(which, which);
   const Vector pull = Vector(prior.rows.transpose() * prior.values)(which);
@@ -143,14 +176,16 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   std::vector<Command> open;
   for (auto i : which) open.push_back(commands[size_t(i)]);
   answer.unidentified = unseen_directions(optimum.jacobian(Eigen::all, which), precision, open);
-  answer.log_evidence = -optimum.value + log_integral(posterior.density);
+  answer.log_evidence = -optimum.value + log_integral(narrow.density);
 
   const Matrix j_free = optimum.jacobian(Eigen::all, free);
   const double used =
       free.empty() ? 0.0
                    : (j_free * Matrix(rough(free, free)).llt().solve(j_free.transpose())).trace();
   const double dof = std::max(1.0, double(optimum.residuals.values.size()) - used);
-  const double chi2 = optimum.residuals.values.squaredNorm();
+  const Vector& r = optimum.residuals.values;
+  const Matrix scatter = covariance + Matrix::Identity(r.size(), r.size());
+  const double chi2 = r.dot(scatter.llt().solve(r));
   answer.chi2_per_dof = chi2 / dof;
   const double tail = chi_square_tail(chi2, dof);
   Eigen::Index worst = 0;

@@ -15,8 +15,14 @@ struct LocalPosterior {
 };
 LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint& optimum);
 
-/// Standard deviation and 90 % interval of samples: central, or, where the mode sits at a bound or
-/// so near that the central interval would miss it, one-sided from that bound.
+/// The same where the model errs by `covariance` (of the residuals), which the fit did not know:
+/// the estimate scatters by H^-1 J^T C J H^-1 more (the sandwich of Huber 1967).
+LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
+                       const Matrix& covariance);
+
+/// Standard deviation of samples and the shortest interval that holds 90 % of them and the mode: it
+/// is one-sided where the density does not fall towards a bound, so that a muscle that may well be
+/// at rest is not claimed to pull.
 struct MarginalSummary {
   double sd, low, high;
 };
@@ -35,11 +41,12 @@ std::vector<TradeOff> unseen_directions(const Matrix& jacobian, const Matrix& pr
 /// Fills estimates, unidentified groups, chi2, verdict and evidence of `answer` from the optimum's
 /// derivatives.
 ///
-/// Verdict by the chi-square test at the 1 % level of sum (distance / sigma)^2 with rows minus
-/// effective parameters as degrees of freedom: passed is `explained`. Otherwise `unreachable` when
+/// Verdict by the chi-square test at the 1 % level of r.(I + C)^-1 r, r the residuals and C what
+/// the model's own error adds to their noise, with rows minus effective parameters as degrees of
+/// freedom: passed is `explained`. Otherwise `unreachable` when
 /// the Gauss-Newton step of the problem without bounds would take away at least half of the excess
 /// (the bounds stop it), else `mismatch`.
 void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
-                         const Comparison& comparison, Answer& answer);
+                         const Comparison& comparison, const ModelError& error, Answer& answer);
 
 }  // namespace genio

@@ -17,7 +17,7 @@ struct Normal {
 /// Beliefs in the terms people have them in; all of them Gaussian, within the muscles' maxima.
 /// A muscle is named with or without its side; "GGP" speaks of both.
 struct Prior {
-  double effort_sd = 0.2;  ///< of every activation about 0, unless EMG says something about it
+  double effort_sd = 0.12;  ///< of every activation about 0, unless EMG says something about it
   std::map<std::string, Normal> emg;    ///< activation of a muscle, as measured
   std::optional<double> symmetry_sd;    ///< of left minus right activation
   std::optional<Normal> cocontraction;  ///< of the mean over all activations

@@ -56,6 +56,14 @@ std::vector<std::pair<int, double>> tissue_point(const HexMesh& mesh, const Vec3
 /// The midsagittal line of the shape `x` as a measurement of `count` points.
 Target curve_target(const Model& model, const Positions& x, int count, double sigma);
 
+/// How wrong the model itself may be, as a smooth Gaussian field on the tongue's surface: other
+/// anatomy, fibre directions, discretisation. Set by `genio bench blind`.
+struct ModelError {
+  double part = 0.3;      ///< standard deviation, of the line's way from rest (root mean square)
+  double least = 1e-4;    ///< [m]
+  double length = 0.012;  ///< of correlation [m]
+};
+
 /// Noise-weighted residuals and their derivatives.
 struct Residuals {
   /// Distance over sigma r; with Student's t noise sign(r) sqrt(nu log(1 + r^2 / nu)), whose half
@@ -63,8 +71,14 @@ struct Residuals {
   /// curvature at 0).
   Vector values;
   std::vector<std::vector<std::pair<int, Vec3>>>
-      gradient;              ///< d value / d x_node [1/m], a row each
-  Matrix pose;               ///< d value / d (shift x, shift z, turn), a row each
+      gradient;  ///< d value / d x_node [1/m], a row each
+  Matrix pose;   ///< d value / d (shift x, shift z, turn), a row each
+  struct Row {
+    int point;     ///< index into places
+    int axis;      ///< 0 to 2: along x, y, z; -1: across the surface
+    double scale;  ///< d value / d distance [1/m]
+  };
+  std::vector<Row> rows;
   Vector distances;          ///< unweighted, one a point [m]
   std::vector<Vec3> places;  ///< where on the model, one a point [m]
   int outliers = 0;          ///< values beyond 3 sigma
@@ -78,13 +92,18 @@ class Comparison {
   Residuals operator()(const Positions& x, const HeadPose& pose = {}) const;
   const Target& target() const { return target_; }
   const TongueLine& line() const { return line_; }
+  const Positions& rest() const { return rest_; }
 
  private:
   Target target_;
   TongueLine line_;
+  Positions rest_;
   std::vector<std::array<int, 3>> triangles_;  // of the surface
   Vec2 middle_;
 };
+
+/// Covariance of the residuals that a model error of standard deviation `sd` [m] makes.
+Matrix model_error_covariance(const Residuals& residuals, double sd, double length);
 
 /// d residuals / d parameters: rows as in Residuals, `positions` = dx/dp (3 n x count).
 Matrix residual_jacobian(const Residuals& residuals, const Matrix& positions);

@@ -3,14 +3,16 @@
 #include <cmath>
 
 #include "inverse/frame_target.hpp"
-#include "inverse/infer.hpp"
+#include "inverse/multi_start.hpp"
 #include "server/service.hpp"
 
 namespace genio {
 
 struct RequestWorker::State {
-  explicit State(const Model& m) : workspace(m) {}
+  /// The atlas first: no request should wait for it.
+  explicit State(const Model& m) : workspace(m) { atlas.get(m, Prior{}, true, workspace); }
   Workspace workspace;
+  AtlasCache atlas;
 };
 
 RequestWorker::RequestWorker(const Model& model) : state_(std::make_unique<State>(model)) {}
@@ -83,7 +85,8 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
     if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;
     options.progress = progress;
     options.cancelled = cancelled;
-    const Answer a = infer(model, target, Prior{}, worker.state().workspace, options);
+    const Answer a = infer_from_starts(model, target, Prior{}, worker.state().workspace,
+                                       worker.state().atlas, options);
     reply.status = to_string(a.status);
     reply.message = a.message;
     reply.verdict = to_string(a.verdict);
