@@ -131,11 +131,13 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   const Vector& z = optimum.activations;
   const LocalPosterior narrow = local_posterior(objective, optimum);
   const auto& which = narrow.which;
-  const Matrix covariance = model_error_covariance(
-      optimum.residuals,
-      std::max(error.least, error.part * way_from_rest(comparison, optimum.equilibrium.x)),
-      error.length);
-  const LocalPosterior posterior = widened(narrow, optimum.jacobian(Eigen::all, which), covariance);
+  const double way = way_from_rest(comparison, optimum.equilibrium.x);
+  const auto erring = [&](double part) {
+    return model_error_covariance(optimum.residuals, std::max(error.least, part * way),
+                                  error.length);
+  };
+  const LocalPosterior posterior =
+      widened(narrow, optimum.jacobian(Eigen::all, which), erring(error.part));
   const Matrix samples = sample(posterior.density, sample_count);
   const Matrix precision = prior.hessian()(which, which);
   const Vector pull = Vector(prior.rows.transpose() * prior.values)(which);
@@ -184,7 +186,7 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
                    : (j_free * Matrix(rough(free, free)).llt().solve(j_free.transpose())).trace();
   const double dof = std::max(1.0, double(optimum.residuals.values.size()) - used);
   const Vector& r = optimum.residuals.values;
-  const Matrix scatter = covariance + Matrix::Identity(r.size(), r.size());
+  const Matrix scatter = erring(error.left) + Matrix::Identity(r.size(), r.size());
   const double chi2 = r.dot(scatter.llt().solve(r));
   answer.chi2_per_dof = chi2 / dof;
   const double tail = chi_square_tail(chi2, dof);

@@ -41,11 +41,10 @@ std::vector<TradeOff> unseen_directions(const Matrix& jacobian, const Matrix& pr
 /// Fills estimates, unidentified groups, chi2, verdict and evidence of `answer` from the optimum's
 /// derivatives.
 ///
-/// Verdict by the chi-square test at the 1 % level of r.(I + C)^-1 r, r the residuals and C what
-/// the model's own error adds to their noise, with rows minus effective parameters as degrees of
-/// freedom: passed is `explained`. Otherwise `unreachable` when
-/// the Gauss-Newton step of the problem without bounds would take away at least half of the excess
-/// (the bounds stop it), else `mismatch`.
+/// Verdict by the chi-square test at the 1 % level of r.(I + C)^-1 r, r the residuals and C what a
+/// fit leaves of the model's own error, with rows minus effective parameters as degrees of freedom:
+/// passed is `explained`. Otherwise `unreachable` when the Gauss-Newton step of the problem without
+/// bounds would take away at least half of the excess (the bounds stop it), else `mismatch`.
 void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
                          const Comparison& comparison, const ModelError& error, Answer& answer);
 
