@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include "cli/commands.hpp"
-#include "cli/measured.hpp"
+#include "cli/offline.hpp"
+#include "cli/progress_line.hpp"
+#include "cli/result_log.hpp"
 #include "forward/model_file.hpp"
 #include "inverse/frame_target.hpp"
-#include "inverse/multi_start.hpp"
-#include "report/motion_report.hpp"
+#include "report/run_summary.hpp"
 
 namespace genio::cli {
 namespace {
@@ -14,30 +15,30 @@ constexpr double outlier_dof = 4;  // of Student's t
 
 struct InvertOptions {
   MeasuredOptions measured;
-  std::string model = default_model(), out;
-  std::string prior;
+  std::string model = default_model(), out, prior;
   double deadline_s = 0;
-  int starts = 0;
-  bool bilateral = false, robust = false, json = false;
+  int starts = 0, threads = 1;
+  bool bilateral = false, robust = false, sequence = false, resume = false, json = false;
 };
 
 /// All of them before the first is worked on: a bad point should not end hours of work.
-std::vector<Target> all_targets(const Model& model, const Measured& measured,
-                                const std::string& file, bool robust) {
-  std::vector<Target> targets;
+std::vector<Frame> all_frames(const Model& model, const Measured& measured,
+                              const InvertOptions& o) {
+  std::vector<Frame> frames;
   try {
-    for (const ContourFrame& frame : measured.frames) {
-      targets.push_back(make_target(model, frame, measured.noise));
-      if (robust) targets.back().outlier_dof = outlier_dof;
+    for (const ContourFrame& contour : measured.frames) {
+      frames.push_back({contour, make_target(model, contour, measured.noise)});
+      if (o.robust) frames.back().target.outlier_dof = outlier_dof;
     }
   } catch (const InputError& e) {
-    throw InputError(fmt::format("{}: {}", file, e.what()));
+    throw InputError(fmt::format("{}: {}", o.measured.target, e.what()));
   }
-  return targets;
+  return frames;
 }
 
 /// Errors name the file; a wrong muscle should not wait for the first frame.
 Prior checked_prior(const Model& model, const InvertOptions& o) {
+  if (o.prior.empty()) return {};
   const Prior prior = read_prior(o.prior);
   try {
     prior_terms(prior, unknowns(model, prior, o.bilateral));
@@ -47,39 +48,71 @@ Prior checked_prior(const Model& model, const InvertOptions& o) {
   return prior;
 }
 
+/// Everything an answer depends on.
+nlohmann::json question(const InvertOptions& o, double noise) {
+  return {{"model", o.model},
+          {"target", o.measured.target},
+          {"palate", o.measured.palate},
+          {"noise_mm", 1e3 * noise},
+          {"prior", o.prior},
+          {"starts", o.starts},
+          {"bilateral", o.bilateral},
+          {"robust", o.robust},
+          {"sequence", o.sequence}};
+}
+
 int run(const InvertOptions& o) {
+  if (o.resume && o.out.empty()) throw InputError("--resume: needs the --out of the earlier run");
   const Model model = read_model(o.model);
   const Measured measured = read_measured(o.measured, [&]() -> const Model& { return model; });
-  const auto targets = all_targets(model, measured, o.measured.target, o.robust);
-  const Prior prior = o.prior.empty() ? Prior{} : checked_prior(model, o);
-  Workspace ws(model);
-  AtlasCache atlas;
-  InferOptions options;
-  options.deadline_s = o.deadline_s;
-  if (o.bilateral) options.bilateral = true;
-  bool all = true;
-  for (size_t i = 0; i < targets.size(); ++i) {
-    const ContourFrame& frame = measured.frames[i];
-    AnswerView view;
-    Answer answer;
-    if (targets[i].empty()) {
-      view.title = frame_title(frame), view.status = "failed", view.verdict = "none";
-      view.message = frame.note.empty() ? "the frame has no points" : frame.note;
-    } else {
-      answer = infer_from_starts(model, targets[i], prior, ws, atlas, options, {o.starts});
-      view = view_of(model, targets[i], answer, frame_title(frame));
-      if (answer.status == InferStatus::converged)
-        options.start = answer.activations, options.start_shape = answer.shape;
-    }
-    all &= view.status == "converged";
-    print_answer(view, frame.number, o.json);
-    if (!o.out.empty()) {
-      const std::string name = frame_name(frame);
-      write_report(model, view, frame.number, o.out, name);
-      if (answer.shape.size() > 0) write_shape(model, answer.shape, o.out + "/" + name + ".vtu");
-    }
-  }
-  return all ? done : no_answer;
+  std::vector<Frame> frames = all_frames(model, measured, o);
+  OfflineOptions offline{checked_prior(model, o), {}, {o.starts}, o.sequence, o.out};
+  offline.infer.deadline_s = o.deadline_s;
+  if (o.bilateral) offline.infer.bilateral = true;
+
+  std::optional<ResultLog> log;
+  if (!o.out.empty()) log.emplace(o.out, question(o, measured.noise), o.resume);
+  std::map<int, nlohmann::json> answers;
+  if (log) answers = log->known();
+  std::vector<Frame> open;
+  for (Frame& frame : frames)
+    if (!answers.contains(frame.contour.number)) open.push_back(std::move(frame));
+  if (!answers.empty())
+    fmt::print(stderr, "{} of {} frames are known from the run before\n", answers.size(),
+               frames.size());
+
+  ProgressLine progress(int(answers.size()), int(frames.size()), true);
+  // Runs of neighbours, as each frame starts where the one before ended.
+  const int workers = std::clamp(o.threads, 1, std::max(1, int(open.size())));
+  const auto share = [&](int k) { return open.size() * size_t(k) / size_t(workers); };
+  in_processes(
+      workers,
+      [&](int k, const Send& send) {
+        const std::vector<Frame> mine(open.begin() + long(share(k)),
+                                      open.begin() + long(share(k + 1)));
+        nlohmann::json before;
+        if (!mine.empty())
+          if (const auto it = answers.find(mine.front().contour.number - 1); it != answers.end())
+            before = it->second;
+        answer_frames(model, mine, offline, before, send);
+      },
+      [&](const nlohmann::json& result) {
+        const auto& answer = result["answer"];
+        if (log) log->add(answer);
+        answers[answer["frame"].get<int>()] = answer;
+        if (o.json) fmt::print("{}\n", answer.dump());
+        else
+          fmt::print("{}\n{}\n", result["title"].get<std::string>(),
+                     result["table"].get<std::string>());
+        std::fflush(stdout);
+        progress.step();
+      });
+  if (frames.size() > 1) fmt::print(stderr, "{}", summary_text(answers));
+  if (log) write_summary(answers, o.out);
+  return std::all_of(answers.begin(), answers.end(),
+                     [](const auto& a) { return a.second.value("status", "") == "converged"; })
+             ? done
+             : no_answer;
 }
 
 }  // namespace
@@ -89,15 +122,20 @@ Runner add_invert(CLI::App& app) {
   app.add_option("--model", o->model, "Model folder or model.toml");
   add_measured_options(app, o->measured);
   app.add_option("--prior", o->prior, "What is believed before: TOML, or a CSV of EMG");
-  app.add_option(
-         "--starts", o->starts,
-         "Descents a frame; more find other answers that fit (0: until the shape is explained)")
+  app.add_option("--starts", o->starts,
+                 "Descents a frame; more find other answers that fit (0: until the shape is "
+                 "explained)")
       ->check(CLI::Range(0, 1000));
+  app.add_flag("--sequence", o->sequence, "Activations walk from frame to frame");
   app.add_flag("--robust", o->robust, "Noise with outliers (Student's t)");
   app.add_flag("--bilateral", o->bilateral, "Left and right together");
   app.add_option("--deadline-s", o->deadline_s, "Time a frame may take");
+  app.add_option("--threads", o->threads,
+                 "Worker processes, each with a run of neighbouring frames")
+      ->check(CLI::Range(1, 256));
   app.add_flag("--json", o->json, "One JSON object a frame on standard output");
-  app.add_option("--out", o->out, "Folder for pictures, numbers and shapes");
+  app.add_option("--out", o->out, "Folder for results.jsonl, a summary, pictures and shapes");
+  app.add_flag("--resume", o->resume, "Take up an interrupted run with the same --out");
   app.footer("Example: genio invert --target data/examples/example_shape.csv --out results");
   return [o] { return run(*o); };
 }

@@ -40,6 +40,23 @@ expect 0 '"verdict":"explained"' "$genio" invert --target "$example" --json --ou
 for kind in svg png csv json vtu; do
   [ -s results/frame00001.$kind ] || { echo "FAILED: no results/frame00001.$kind"; failed=1; }
 done
+expect 2 'holds results already' "$genio" invert --target "$example" --out results
+expect 2 'needs the --out' "$genio" invert --target "$example" --resume
+# Four frames in two processes; an interruption in mid-line; what was known is not computed again.
+awk -F, -v OFS=, 'NR==1 {print; next} {for (f = 1; f <= 4; ++f) {$1 = f; l[f] = l[f] $0 "\n"}}
+  END {for (f = 1; f <= 4; ++f) printf "%s", l[f]}' "$example" >four.csv
+expect 0 'of 4 frames' "$genio" invert --target four.csv --threads 2 --out four
+[ "$(wc -l <four/results.jsonl)" -eq 4 ] && [ -s four/summary.csv ] && [ -s four/summary.png ] || { echo "FAILED: four/"; failed=1; }
+head -c 3000 four/results.jsonl >cut && cp cut four/results.jsonl
+expect 2 'was made with sequence = false' "$genio" invert --target four.csv --out four --resume --sequence
+expect 0 'known from the run before' "$genio" invert --target four.csv --out four --resume
+[ "$(wc -l <four/results.jsonl)" -eq 4 ] || { echo "FAILED: resumed four/"; failed=1; }
+[ "$(head -c 500 four/results.jsonl)" = "$(head -c 500 cut)" ] || { echo "FAILED: a known answer changed"; failed=1; }
+printf 'muscle,mean,sd\nMH,0.3,0.01\n' >emg.csv
+expect 0 '"MH":0.' "$genio" invert --target "$example" --prior emg.csv --json
+printf 'muscle,mean,sd\nMX,0.3,0.01\n' >emg.csv
+expect 2 'emg.csv: EMG of MX: no such muscle' "$genio" invert --target "$example" --prior emg.csv
+expect 0 '"alternatives"' "$genio" invert --target "$example" --starts 3 --robust --json
 expect 2 'no such file' "$genio" invert --target nothing.csv
 printf 'frame,point,x_mm,z_mm\n1,1,80,abc\n' >bad.csv
 expect 2 'bad.csv:2: field z_mm' "$genio" invert --target bad.csv

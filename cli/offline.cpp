@@ -1,0 +1,71 @@
+#include "cli/offline.hpp"
+
+#include <cmath>
+
+#include "report/motion_report.hpp"
+
+namespace genio::cli {
+namespace {
+
+constexpr double default_step = 0.01;  // between frames without times [s]
+
+/// The unknowns of an earlier answer; empty where they are not all told.
+Vector told_unknowns(const nlohmann::json& answer, const std::vector<Command>& commands) {
+  if (answer.value("status", "") != "converged") return {};
+  Vector z(Eigen::Index(commands.size()));
+  for (size_t i = 0; i < commands.size(); ++i) {
+    const std::string& name = commands[i].name;
+    if (answer["activation"].contains(name)) z[Eigen::Index(i)] = answer["activation"][name];
+    else if (answer["estimated"].contains(name))
+      z[Eigen::Index(i)] = answer["estimated"][name]["value"].get<double>() / commands[i].scale;
+    else return {};
+  }
+  return z;
+}
+
+AnswerView unanswered(const ContourFrame& frame) {
+  AnswerView view;
+  view.title = frame_title(frame), view.status = "failed", view.verdict = "none";
+  view.message = frame.note.empty() ? "the frame has no points" : frame.note;
+  return view;
+}
+
+}  // namespace
+
+void answer_frames(const Model& model, const std::vector<Frame>& frames, const OfflineOptions& o,
+                   const nlohmann::json& before, const Send& send) {
+  Workspace ws(model);
+  AtlasCache atlas;
+  InferOptions infer = o.infer;
+  double last_time = std::nan("");
+  for (const Frame& frame : frames) {
+    AnswerView view = unanswered(frame.contour);
+    Answer answer;
+    if (!frame.target.empty()) {
+      Prior prior = o.prior;
+      if (&frame == &frames.front() && before.is_object())
+        infer.start = told_unknowns(
+            before, unknowns(model, prior, infer.bilateral.value_or(frame.target.midsagittal())));
+      if (o.sequence && infer.start.size() > 0) {
+        const double dt = frame.contour.time_s - last_time;
+        prior.before =
+            Prior::Before{infer.start, prior.smoothness_sd * std::sqrt(dt > 0 ? dt : default_step)};
+      }
+      answer = infer_from_starts(model, frame.target, prior, ws, atlas, infer, o.starts);
+      view = view_of(model, frame.target, answer, frame_title(frame.contour));
+      if (answer.status == InferStatus::converged)
+        infer.start = answer.activations, infer.start_shape = answer.shape;
+      last_time = frame.contour.time_s;
+    }
+    if (!o.out.empty()) {
+      const std::string name = frame_name(frame.contour);
+      write_report(model, view, frame.contour.number, o.out, name);
+      if (answer.shape.size() > 0) write_shape(model, answer.shape, o.out + "/" + name + ".vtu");
+    }
+    send({{"answer", to_json(view, frame.contour.number)},
+          {"title", view.title},
+          {"table", to_table(view)}});
+  }
+}
+
+}  // namespace genio::cli

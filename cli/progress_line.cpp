@@ -1,0 +1,44 @@
+#include "cli/progress_line.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+
+namespace genio::cli {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string duration(double seconds) {
+  if (seconds < 90) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 5400) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+ProgressLine::ProgressLine(int done, int total, bool shown)
+    : first_(done),
+      done_(done),
+      total_(total),
+      shown_(shown && total > 1),
+      terminal_(isatty(STDERR_FILENO)),
+      started_(now()) {}
+
+void ProgressLine::step() {
+  ++done_;
+  const bool tenth = 10 * done_ / total_ != 10 * (done_ - 1) / total_;
+  if (!shown_ || (!terminal_ && !tenth)) return;
+  constexpr int width = 24;
+  const int full = width * done_ / total_;
+  const double each = (now() - started_) / (done_ - first_);
+  fmt::print(stderr, "{}[{:#<{}}{:.<{}}] {} of {} frames, {:.2f} s each, {} left{}",
+             terminal_ ? "\r" : "", "", full, "", width - full, done_, total_, each,
+             duration(each * (total_ - done_)), terminal_ && done_ < total_ ? "  " : "\n");
+  std::fflush(stderr);
+}
+
+}  // namespace genio::cli

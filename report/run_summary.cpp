@@ -1,0 +1,81 @@
+#include "report/run_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "report/plot.hpp"
+#include "report/svg.hpp"
+
+namespace genio {
+namespace {
+
+using nlohmann::json;
+
+std::string counts(const std::map<int, json>& answers, const char* key) {
+  std::map<std::string, int> count;
+  for (const auto& [frame, a] : answers) ++count[a.value(key, "none")];
+  std::string text;
+  for (const auto& [name, n] : count)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, name);
+  return text;
+}
+
+double quantile(std::vector<double> v, double p) {
+  if (v.empty()) return 0;
+  std::sort(v.begin(), v.end());
+  return v[std::min(v.size() - 1, size_t(p * double(v.size())))];
+}
+
+bool answered(const json& a) { return a.value("status", "") == "converged"; }
+
+}  // namespace
+
+std::string summary_text(const std::map<int, json>& answers) {
+  std::vector<double> rms, wall;
+  for (const auto& [frame, a] : answers)
+    if (answered(a)) rms.push_back(a["rms_mm"]), wall.push_back(a["wall_s"]);
+  return fmt::format(
+      "{} frames\nstatus   {}\nverdict  {}\nfit      RMS {:.2f} mm in the median, {:.2f} mm in the "
+      "worst tenth\ntime     {:.2f} s a frame in the median\n",
+      answers.size(), counts(answers, "status"), counts(answers, "verdict"), quantile(rms, 0.5),
+      quantile(rms, 0.9), quantile(wall, 0.5));
+}
+
+void write_summary(const std::map<int, json>& answers, const std::string& folder) {
+  std::vector<std::string> muscles;
+  for (const auto& [frame, a] : answers)
+    if (answered(a)) {
+      for (const auto& [name, force] : a["forces_N"].items()) muscles.push_back(name);
+      break;
+    }
+  std::string csv = "frame,status,verdict,rms_mm,max_mm,chi2_per_dof";
+  for (const auto& m : muscles) csv += fmt::format(",{}_N,{}_sd_N", m, m);
+  csv += "\n";
+  std::vector<Series> series;
+  for (const auto& m : muscles) series.push_back({m, {}});
+  for (const auto& [frame, a] : answers) {
+    csv += fmt::format("{},{},{}", frame, a.value("status", ""), a.value("verdict", ""));
+    if (!answered(a)) {
+      csv += std::string(3 + 2 * muscles.size(), ',') + "\n";
+      continue;
+    }
+    for (const char* key : {"rms_mm", "max_mm", "chi2_per_dof"})
+      csv += fmt::format(",{:.4g}", a[key].get<double>());
+    for (size_t m = 0; m < muscles.size(); ++m) {
+      const std::string& name = muscles[m];
+      csv +=
+          fmt::format(",{:.5g},{:.5g}", a["forces_N"].value(name, 0.0), a["sd_N"].value(name, 0.0));
+      series[m].points.emplace_back(frame, 100 * a["activation"].value(name, 0.0));
+    }
+    csv += "\n";
+  }
+  write_text(folder + "/summary.csv", csv);
+  if (muscles.empty()) return;
+  const std::string svg = plot("Muscle activations", "frame", "% of maximum", series, false, false);
+  write_text(folder + "/summary.svg", svg);
+  write_png(folder + "/summary.png", svg, 1.5);
+}
+
+}  // namespace genio
