@@ -14,6 +14,7 @@ constexpr int stage_tries = 5;           // each 0.4 times as long as the one be
 constexpr double shortest_stage = 0.02;  // of the unbalanced force; below it springs do better
 constexpr double longest_stage = 0.3;    // velocity gradient of its first step
 constexpr double far_step = 2e-3;        // [m]
+constexpr double near_balance = 0.05;    // residual over the applied forces
 
 /// Newton iterations from result.x at result.parameters.
 void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equilibrium& result) {
@@ -83,10 +84,12 @@ void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equ
                                options.max_iterations, result.residual);
 }
 
-/// Length of the longest nodal displacement of the Newton step from x [m].
+/// Length of the longest nodal displacement of the Newton step from x [m]; 0 where little is
+/// unbalanced.
 double step_length(const Model& model, const Parameters& p, const Positions& x, Workspace& ws) {
   Newton newton(model, p, ws);
   const MixedState state = newton.at(x);
+  if (state.force.norm() < near_balance * newton.reference(x)) return 0;
   newton.assemble(state);
   const Vector d = model.dofs.expand(newton.direction(state, 0.1).u);
   return d.reshaped(3, d.size() / 3).colwise().norm().maxCoeff();

@@ -68,7 +68,7 @@ bool Newton::iterate(const MixedState& s, double accuracy, MixedVector& d) {
   if (ws_.mixed.iterations() > patience / 2) return false;  // worn out
   return ws_.mixed.solve(ws_.cholesky, model_.dofs, product, s.bulk, s.right, accuracy, patience,
                          d) &&
-         d.u.dot(s.right.u) > 0;
+         d.u.dot(product(d.u)) > 0;  // or K is not positive definite
 }
 
 MixedVector Newton::direction(const MixedState& s, double accuracy) {

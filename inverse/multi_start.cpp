@@ -106,7 +106,7 @@ Answer infer_from_starts(const Model& model, const Target& target, const Prior& 
     here.start = start.unknowns;
     here.start_shape.reset();
     if (start.shape.size() > 0) here.start_shape = start.shape;
-    here.rough_start = &start != &starts.front() || options.start.size() == 0;
+    here.rough_start = start.shape.size() == 0;
     if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - wall) <= 0) break;
     last = infer(model, target, prior, ws, here);
     wall += last.wall_s, iterations += last.iterations;

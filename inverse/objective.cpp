@@ -11,7 +11,9 @@ namespace genio {
 namespace {
 
 constexpr double near_bound = 2e-3;    // activation
+constexpr double large_misfit = 1.5;   // chi-square a residual
 constexpr double near_optimum = 1;     // fall of the objective still to be had
+constexpr double trial_tolerance = 1e-8;
 constexpr double longest_step = 5e-3;  // of any node between two points [m]
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
@@ -72,6 +74,7 @@ bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
       failure_ = "the step is too long to follow";
       return false;
     }
+    solve_options.tolerance = trial_tolerance;
     solve_options.max_factorizations = 10;
     solve_options.max_load_steps = 0;
   } else if (have_last_) {
@@ -153,7 +156,10 @@ Matrix Objective::exact_hessian(const ObjectivePoint& point) const {
 
 Matrix Objective::hessian(const ObjectivePoint& point) const {
   const Matrix rough = gauss_newton(point);
-  if (promised_gain(point, rough) > near_optimum) return rough;
+  // What Gauss-Newton leaves out goes with the residuals; within noise they hardly bend the valley.
+  const bool small = point.residuals.values.squaredNorm() <
+                     large_misfit * double(point.residuals.values.size());
+  if (small || promised_gain(point, rough) > near_optimum) return rough;
   const Matrix exact = exact_hessian(point);
   return promised_gain(point, exact) < unbounded ? exact : rough;
 }

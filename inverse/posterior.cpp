@@ -11,7 +11,8 @@ namespace {
 
 constexpr double bound_margin = 2e-4;  // activation this near a bound sits at it
 constexpr double test_level = 0.01;
-constexpr int sample_count = 4000;
+constexpr int sample_count = 2000;
+constexpr int prior_sample_count = 1000;
 
 /// Name of the tongue region at a place of the midsagittal line, by its fraction from tip to end.
 std::string region(const TongueLine& line, const Positions& x, const Vec3& place) {
@@ -147,7 +148,7 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
                               .cwiseMin(posterior.density.upper);
   const Matrix before = sample({expected, precision * expected - pull, precision,
                                 posterior.density.lower, posterior.density.upper},
-                               sample_count);
+                               prior_sample_count);
 
   answer.commands.clear(), answer.along.clear();
   std::vector<std::string> at_maximum, at_zero;

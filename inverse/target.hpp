@@ -59,7 +59,7 @@ Target curve_target(const Model& model, const Positions& x, int count, double si
 /// How wrong the model itself may be, as a smooth Gaussian field on the tongue's surface: other
 /// anatomy, fibre directions, discretisation. Set by `genio bench blind`.
 struct ModelError {
-  double part = 0.3;      ///< standard deviation, of the line's way from rest (root mean square)
+  double part = 0.33;     ///< standard deviation, of the line's way from rest (root mean square)
   double left = 0.05;     ///< the same of what the fit cannot absorb, for the verdict
   double least = 1e-4;    ///< [m]
   double length = 0.012;  ///< of correlation [m]
