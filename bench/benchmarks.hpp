@@ -29,8 +29,10 @@ Json robustness(const Model& model, int count, const Progress& progress);
 /// CalculiX (where installed) on the block and, with its folder, on the Grenoble tongue.
 Json verification(const std::string& grenoble_folder, const Progress& progress);
 
-/// Known forces of three muscles found again from their noiseless contour, cold and warm.
-Json recovery(const Model& model);
+/// Known forces of three muscles found again from their noiseless contour: time of a cold and of a
+/// warm inversion over that of the forward solve, and of the same optimiser with a
+/// finite-difference gradient over that with the exact one.
+Json inversion_cost(const Model& model, const Progress& progress);
 
 /// Inversion without inverse crime: targets from the model refined by eight with fibres turned by 5
 /// degrees, 0.5 mm noise, `count` random force vectors of 2 to 5 muscles up to 30 % of maximum.

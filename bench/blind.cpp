@@ -5,6 +5,7 @@
 #include <random>
 
 #include "bench/benchmarks.hpp"
+#include "bench/clock.hpp"
 #include "bench/truth.hpp"
 #include "inverse/multi_start.hpp"
 
@@ -28,11 +29,7 @@ struct Count {
   Json json() const { return of == 0 ? Json() : Json(double(inside) / of); }
 };
 
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
+double middle(const std::vector<double>& v) { return v.empty() ? 0 : median(v); }
 
 }  // namespace
 
@@ -47,7 +44,7 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
   std::normal_distribution<double> normal;
   std::map<std::string, Count> covered, covered_active;
   Count all, converged, verdict;
-  std::vector<double> rms, seconds, error;
+  std::vector<double> rms, wall, error;
   Json failures = Json::array();
   for (int k = 0; k < count; ++k) {
     Vector z = Vector::Zero(Eigen::Index(commands.size()));
@@ -78,7 +75,7 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
     ++converged.inside;
     ++verdict.of, verdict.inside += a.verdict == Verdict::explained;
     rms.push_back(Comparison(model, clean)(a.shape).rms);
-    seconds.push_back(a.wall_s);
+    wall.push_back(a.wall_s);
     for (size_t i = 0; i < commands.size(); ++i) {
       const auto& c = a.commands[i];
       const double force = z[Eigen::Index(i)] * c.max_force;
@@ -93,8 +90,8 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
     }
     if (progress && (k + 1) % 10 == 0)
       progress(fmt::format("{} of {}: median RMS {:.2f} mm, coverage {:.1f} %, {:.2f} s", k + 1,
-                           count, 1e3 * median(rms), 100.0 * all.inside / std::max(1, all.of),
-                           median(seconds)));
+                           count, 1e3 * middle(rms), 100.0 * all.inside / std::max(1, all.of),
+                           middle(wall)));
   }
   Json by_group, active_by_group;
   for (const auto& [group, c] : covered) by_group[group] = c.json();
@@ -102,14 +99,14 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
   return {{"cases", count},
           {"converged_fraction", converged.json()},
           {"explained_fraction", verdict.json()},
-          {"rms_mm_median", 1e3 * median(rms)},
+          {"rms_mm_median", 1e3 * middle(rms)},
           {"rms_mm_max", rms.empty() ? 0 : 1e3 * *std::max_element(rms.begin(), rms.end())},
           {"coverage90", all.json()},
           {"coverage90_by_group", by_group},
           {"coverage90_of_active_by_group", active_by_group},
-          {"force_error_median", median(error)},
+          {"force_error_median", middle(error)},
           {"identified_estimates", error.size()},
-          {"wall_s_median", median(seconds)},
+          {"wall_s_median", middle(wall)},
           {"failures", failures}};
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 struct BenchOptions {
   std::string what, model = default_model(), data, target, palate, out;
-  int sample = 500;
+  int sample = 0;
   bool json = false;
 };
 
@@ -33,9 +33,11 @@ int run(const BenchOptions& o) {
     j = bench::dynamic(o.model, o.data, tell);
   } else {
     const Model m = read_model(o.model);
-    if (o.what == "blind") j = bench::blind(read_description(o.model), o.sample, tell);
-    else if (o.what == "inverse") j = bench::recovery(m);
-    else if (o.what == "robustness") j = bench::robustness(m, o.sample, tell);
+    if (o.what == "inverse") {
+      j = bench::inversion_cost(m, tell);
+      j.update(bench::blind(read_description(o.model), o.sample > 0 ? o.sample : 20, tell));
+    } else if (o.what == "robustness")
+      j = bench::robustness(m, o.sample > 0 ? o.sample : 500, tell);
     else if (o.what == "service") j = bench::service(m);
     else
       j = bench::ultrasound(m, needed(o.target, "--target", o.what),
@@ -51,15 +53,16 @@ Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
   app.add_option(
          "what", o->what,
-         "forward, dynamic, robustness, verification, inverse, blind, service, ultrasound, grenoble")
+         "forward, dynamic, robustness, verification, inverse, service, ultrasound, grenoble")
       ->required()
       ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse",
-                             "blind", "service", "ultrasound", "grenoble"}));
+                             "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
   app.add_option("--data", o->data, "grenoble, dynamic, verification: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
-  app.add_option("--sample", o->sample, "robustness: random force vectors")->capture_default_str();
+  app.add_option("--sample", o->sample, "Random cases: robustness (500), inverse (20)")
+      ->check(CLI::Range(1, 100000));
   app.add_option("--out", o->out, "verification: folder for its tables and plots");
   app.add_flag("--json", o->json, "One JSON object on standard output");
   app.footer("Example: genio bench inverse");

@@ -77,15 +77,17 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
       rounded[i] = rounded[i] < lower[i] + 1e-3   ? lower[i]
                    : rounded[i] > upper[i] - 1e-3 ? upper[i]
                                                   : rounded[i];
-    const auto* point = objective.derivatives(rounded);
-    if (!point) point = objective.derivatives(optimum.activations);
+    const auto* point =
+        options.finite_differences ? objective.value(rounded) : objective.derivatives(rounded);
+    if (!point && !options.finite_differences) point = objective.derivatives(optimum.activations);
     if (point) {
       answer.activations = point->activations;
       answer.shape = point->equilibrium.x;
       answer.residuals = point->residuals;
       answer.rms = point->residuals.rms;
       answer.max = point->residuals.max;
-      summarise_posterior(objective, *point, comparison, options.model_error, answer);
+      if (!options.finite_differences)
+        summarise_posterior(objective, *point, comparison, options.model_error, answer);
     } else {
       answer.status = objective.stopped() ? objective.stop_reason() : InferStatus::failed;
       answer.message = objective.last_failure();

@@ -21,7 +21,9 @@ struct InferOptions {
   ModelError model_error;                ///< widens what the posterior claims
   Vector start;                          ///< activations to start from; empty: rest
   std::optional<Positions> start_shape;  ///< the equilibrium shape near `start`
-  bool rough_start = false;         ///< `start` is only a guess: go near under more effort first
+  bool rough_start = false;  ///< `start` is only a guess: go near under more effort first
+  /// Gradient by differences and a quasi-Newton Hessian, to compare with: no posterior.
+  bool finite_differences = false;
   std::function<bool()> cancelled;  ///< asked between steps; true ends the work
   std::function<void(int iteration, double rms)> progress;  ///< rms in m
 };

@@ -10,9 +10,9 @@
 namespace genio {
 namespace {
 
-constexpr double near_bound = 2e-3;    // activation
-constexpr double large_misfit = 1.5;   // chi-square a residual
-constexpr double near_optimum = 1;     // fall of the objective still to be had
+constexpr double near_bound = 2e-3;   // activation
+constexpr double large_misfit = 1.5;  // chi-square a residual
+constexpr double near_optimum = 1;    // fall of the objective still to be had
 constexpr double trial_tolerance = 1e-8;
 constexpr double longest_step = 5e-3;  // of any node between two points [m]
 constexpr double unbounded = std::numeric_limits<double>::infinity();
@@ -65,7 +65,9 @@ bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
   const Parameters p = apply_commands(commands_, activations, base_);
   Positions start = model_.rest;
   SolveOptions solve_options;
-  if (have_anchor_) {
+  if (have_anchor_ && options_.finite_differences) {
+    start = anchor_.equilibrium.x;
+  } else if (have_anchor_) {
     // Beyond what its linearisation can foresee a step is refused, which costs nothing; the
     // optimiser comes back with a shorter one.
     const Vector step = anchor_.positions * (activations - anchor_.activations);
@@ -108,6 +110,13 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
   if (have_anchor_ && same(anchor_.activations, activations)) return &anchor_;
   if (!value(activations)) return nullptr;
   ObjectivePoint point = last_;
+  if (options_.finite_differences) {
+    point.gradient = difference_gradient(point);
+    if (point.gradient.size() == 0) return nullptr;
+    anchor_ = std::move(point);
+    have_anchor_ = true;
+    return &anchor_;
+  }
   const Matrix pull =
       command_pulls(model_, commands_, point.equilibrium.x, point.equilibrium.parameters);
   point.positions = sensitivity_to_forces(model_, point.equilibrium, pull, ws_);
@@ -125,7 +134,21 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
   return &anchor_;
 }
 
+Vector Objective::difference_gradient(const ObjectivePoint& point) {
+  constexpr double step = 1e-4;  // of an activation
+  const Eigen::Index n = point.activations.size();
+  Vector gradient(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    ObjectivePoint beside;
+    const double h = point.activations[k] + step > prior_.upper[k] ? -step : step;
+    if (!solve(point.activations + h * Vector::Unit(n, k), beside)) return {};
+    gradient[k] = (beside.value - point.value) / h;
+  }
+  return gradient;
+}
+
 double Objective::promised_gain() const {
+  if (options_.finite_differences) return unbounded;
   return have_anchor_ ? promised_gain(anchor_, hessian(anchor_)) : unbounded;
 }
 
@@ -157,8 +180,8 @@ Matrix Objective::exact_hessian(const ObjectivePoint& point) const {
 Matrix Objective::hessian(const ObjectivePoint& point) const {
   const Matrix rough = gauss_newton(point);
   // What Gauss-Newton leaves out goes with the residuals; within noise they hardly bend the valley.
-  const bool small = point.residuals.values.squaredNorm() <
-                     large_misfit * double(point.residuals.values.size());
+  const bool small =
+      point.residuals.values.squaredNorm() < large_misfit * double(point.residuals.values.size());
   if (small || promised_gain(point, rough) > near_optimum) return rough;
   const Matrix exact = exact_hessian(point);
   return promised_gain(point, exact) < unbounded ? exact : rough;

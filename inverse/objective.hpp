@@ -64,6 +64,7 @@ class Objective {
   /// Infinite where `hessian` is indefinite over the commands free to move.
   double promised_gain(const ObjectivePoint& point, const Matrix& hessian) const;
   void weigh(ObjectivePoint& point) const;
+  Vector difference_gradient(const ObjectivePoint& point);
   bool solve(const Vector& activations, ObjectivePoint& point);
 
   const Model& model_;

@@ -129,6 +129,7 @@ OptimiserResult minimise(Objective& objective, const Vector& start, bool warm,
       accepted &= app->Options()->SetIntegerValue(name, value);
     else accepted &= app->Options()->SetNumericValue(name, value);
   };
+  if (options.finite_differences) set("hessian_approximation", "limited-memory");
   set("print_level", 0);
   set("sb", "yes");
   set("linear_solver", "mumps");
