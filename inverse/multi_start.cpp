@@ -40,14 +40,11 @@ bool distinct(const Answer& a, const Answer& b) {
   return (a.shape - b.shape).cwiseAbs().maxCoeff() > 1e-3;
 }
 
-/// Where to start from, in the order to try.
-std::vector<Atlas::Entry> all_starts(const Model& model, const Target& target, const Prior& prior,
-                                     Workspace& ws, AtlasCache& cache, const InferOptions& options,
-                                     int count) {
+/// Where to start from when nothing better is known, in the order to try.
+std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, const Prior& prior,
+                                  Workspace& ws, AtlasCache& cache, const InferOptions& options,
+                                  int count) {
   std::vector<Atlas::Entry> starts;
-  if (options.start.size() > 0)
-    starts.push_back({options.start, options.start_shape.value_or(Positions())});
-  if (int(starts.size()) == count) return starts;
   const bool bilateral = options.bilateral.value_or(target.midsagittal());
   const auto commands = unknowns(model, prior, bilateral);
   const PriorTerms terms = prior_terms(prior, commands);
@@ -93,15 +90,19 @@ Answer infer_from_starts(const Model& model, const Target& target, const Prior& 
                          const StartOptions& start_options) {
   if (target.empty()) throw InputError("the target has no points");
   const bool until_explained = start_options.starts == 0;
-  const auto starts = all_starts(model, target, prior, ws, atlas, options,
-                                 !until_explained           ? start_options.starts
-                                 : options.start.size() > 0 ? warm_patience
-                                                            : patience);
+  const bool given = options.start.size() > 0;
+  const int most = !until_explained ? start_options.starts : given ? warm_patience : patience;
+  std::vector<Atlas::Entry> starts;
+  if (given) starts.push_back({options.start, options.start_shape.value_or(Positions())});
   std::vector<Answer> found;
   Answer last;
   double wall = 0;
   int iterations = 0, factorizations = 0, solves = 0;
-  for (const Atlas::Entry& start : starts) {
+  for (int k = 0; k < most; ++k) {
+    if (k == int(given))  // not before they are needed
+      for (Atlas::Entry& guess : guesses(model, target, prior, ws, atlas, options, most - k))
+        starts.push_back(std::move(guess));
+    const Atlas::Entry& start = starts[size_t(k)];
     InferOptions here = options;
     here.start = start.unknowns;
     here.start_shape.reset();
