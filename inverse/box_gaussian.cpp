@@ -11,8 +11,9 @@
 namespace genio {
 namespace {
 
-constexpr int warming = 100;     // samples left out
-constexpr double inside = 1e-9;  // of the box: where the first trajectory starts off a bound
+constexpr double bound_margin = 2e-4;  // an unknown this near a bound sits at it
+constexpr int warming = 100;           // samples left out
+constexpr double inside = 1e-9;        // of the box: where the first trajectory starts off a bound
 constexpr int most_bounces = 2000;
 constexpr double pressing = 30;  // slope at a bound, in units of the Gaussian's own
 
@@ -72,13 +73,27 @@ Matrix bouncing(const BoxGaussian& g, int count, std::mt19937_64& random) {
 
 }  // namespace
 
+BoxGaussian about(const Vector& centre, const Matrix& hessian, const Vector& lower,
+                  const Vector& upper) {
+  const Vector mode = centre.cwiseMax(lower).cwiseMin(upper);
+  return {mode, hessian * (mode - centre), hessian, lower, upper};
+}
+
+int pressed(const BoxGaussian& g, Eigen::Index i) {
+  if (g.slope[i] > 0 && g.mode[i] < g.lower[i] + bound_margin) return -1;
+  if (g.slope[i] < 0 && g.mode[i] > g.upper[i] - bound_margin) return 1;
+  return 0;
+}
+
 Matrix sample(const BoxGaussian& g, int count) {
   std::mt19937_64 random(20140601);
   // Against a bound that presses hard a trajectory would bounce for ever. There the density is an
   // exponential too narrow for the others to notice.
   std::vector<Eigen::Index> soft, hard;
-  for (Eigen::Index i = 0; i < g.mode.size(); ++i)
-    (std::abs(g.slope[i]) > pressing * std::sqrt(g.hessian(i, i)) ? hard : soft).push_back(i);
+  for (Eigen::Index i = 0; i < g.mode.size(); ++i) {
+    const bool hard_pressed = std::abs(g.slope[i]) > pressing * std::sqrt(g.hessian(i, i));
+    (pressed(g, i) != 0 && hard_pressed ? hard : soft).push_back(i);
+  }
   Matrix samples(g.mode.size(), count);
   std::uniform_real_distribution<double> uniform;
   for (auto i : hard) {
@@ -99,11 +114,9 @@ double log_integral(const BoxGaussian& g) {
   double result = 0;
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < g.mode.size(); ++i) {
-    const bool pressed =
-        (g.mode[i] <= g.lower[i] && g.slope[i] > 0) || (g.mode[i] >= g.upper[i] && g.slope[i] < 0);
     // A weak slope leaves a half Gaussian.
     const double width = std::sqrt(0.5 * std::numbers::pi / g.hessian(i, i));
-    if (pressed) result += std::log(std::min(1 / std::abs(g.slope[i]), width));
+    if (pressed(g, i) != 0) result += std::log(std::min(1 / std::abs(g.slope[i]), width));
     else free.push_back(i);
   }
   if (free.empty()) return result;

@@ -13,6 +13,14 @@ struct BoxGaussian {
   Vector lower, upper;
 };
 
+/// The same Gaussian by its centre, which may lie outside the bounds; the mode is the nearest point
+/// within them.
+BoxGaussian about(const Vector& centre, const Matrix& hessian, const Vector& lower,
+                  const Vector& upper);
+
+/// -1 where the density presses unknown i against its lower bound, 1 against the upper, else 0.
+int pressed(const BoxGaussian& density, Eigen::Index i);
+
 /// Draws `count` samples, a column each, by exact Hamiltonian Monte Carlo (Pakman & Paninski 2014,
 /// J. Comput. Graph. Stat. 23): trajectories of the whitened Gaussian are circles that bounce off
 /// the bounds. Always the same samples for the same arguments. Throws std::invalid_argument where H

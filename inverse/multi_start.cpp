@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "inverse/box_gaussian.hpp"
-
 namespace genio {
 namespace {
 
@@ -16,16 +14,8 @@ constexpr double leave_bound = 1e-2;   // activation
 
 /// Draws of the prior within its bounds, a column each.
 Matrix prior_draws(const PriorTerms& prior, int count) {
-  const Eigen::Index n = prior.lower.size();
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (!prior.fixed(i)) free.push_back(i);
-  const Vector rest = prior.lower.cwiseMax(0).cwiseMin(prior.upper);
-  const Matrix h = prior.hessian()(free, free);
-  const Matrix drawn = sample(
-      {rest(free), prior.gradient(rest)(free), h, prior.lower(free), prior.upper(free)}, count);
-  Matrix result = rest.replicate(1, count);
-  for (size_t f = 0; f < free.size(); ++f) result.row(free[f]) = drawn.row(Eigen::Index(f));
+  Matrix result = prior.lower.replicate(1, count);  // of the fixed ones that is the value
+  result(prior.open(), Eigen::all) = sample(prior.density(), count);
   return result;
 }
 

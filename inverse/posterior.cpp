@@ -9,7 +9,6 @@
 namespace genio {
 namespace {
 
-constexpr double bound_margin = 2e-4;  // activation this near a bound sits at it
 constexpr double test_level = 0.01;
 constexpr int sample_count = 2000;
 constexpr int prior_sample_count = 1000;
@@ -42,9 +41,7 @@ std::string list(const std::vector<std::string>& names) {
 
 LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint& optimum) {
   const PriorTerms& prior = objective.prior();
-  LocalPosterior result;
-  for (Eigen::Index i = 0; i < optimum.activations.size(); ++i)
-    if (!prior.fixed(i)) result.which.push_back(i);
+  LocalPosterior result{{}, prior.open()};
   const auto& which = result.which;
   const auto restricted = [&](const Matrix& h) -> Matrix { return h(which, which); };
   Matrix h = restricted(objective.exact_hessian(optimum));
@@ -55,12 +52,8 @@ LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint&
   result.density = {optimum.activations(which), optimum.gradient(which), h, prior.lower(which),
                     prior.upper(which)};
   // What is left of the slope inside the bounds is how far the optimiser went.
-  for (Eigen::Index i = 0; i < result.density.mode.size(); ++i) {
-    BoxGaussian& d = result.density;
-    const bool low = d.mode[i] < d.lower[i] + bound_margin && d.slope[i] > 0;
-    const bool high = d.mode[i] > d.upper[i] - bound_margin && d.slope[i] < 0;
-    if (!low && !high) d.slope[i] = 0;
-  }
+  for (Eigen::Index i = 0; i < result.density.mode.size(); ++i)
+    if (pressed(result.density, i) == 0) result.density.slope[i] = 0;
   return result;
 }
 
@@ -140,15 +133,8 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   const LocalPosterior posterior =
       widened(narrow, optimum.jacobian(Eigen::all, which), erring(error.part));
   const Matrix samples = sample(posterior.density, sample_count);
-  const Matrix precision = prior.hessian()(which, which);
-  const Vector pull = Vector(prior.rows.transpose() * prior.values)(which);
-  const Vector expected = precision.llt()
-                              .solve(pull)
-                              .cwiseMax(posterior.density.lower)
-                              .cwiseMin(posterior.density.upper);
-  const Matrix before = sample({expected, precision * expected - pull, precision,
-                                posterior.density.lower, posterior.density.upper},
-                               prior_sample_count);
+  const BoxGaussian belief = prior.density();
+  const Matrix before = sample(belief, prior_sample_count);
 
   answer.commands.clear(), answer.along.clear();
   std::vector<std::string> at_maximum, at_zero;
@@ -165,8 +151,8 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
       const double spread = std::sqrt((believed.array() - believed.mean()).square().mean());
       e.sd = s.sd * c.scale, e.low = s.low * c.scale, e.high = s.high * c.scale;
       e.information_bits = std::max(0.0, std::log2(spread / std::max(1e-12, s.sd)));
-      e.at_lower = z[i] < prior.lower[i] + bound_margin && optimum.gradient[i] > 0;
-      e.at_upper = z[i] > prior.upper[i] - bound_margin && optimum.gradient[i] < 0;
+      const int side = pressed(narrow.density, f);
+      e.at_lower = side<0, e.at_upper = side> 0;
       if (!e.at_lower && !e.at_upper) free.push_back(i);
       ++f;
     }
@@ -178,7 +164,8 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   }
   std::vector<Command> open;
   for (auto i : which) open.push_back(commands[size_t(i)]);
-  answer.unidentified = unseen_directions(optimum.jacobian(Eigen::all, which), precision, open);
+  answer.unidentified =
+      unseen_directions(optimum.jacobian(Eigen::all, which), belief.hessian, open);
   answer.log_evidence = -optimum.value + log_integral(narrow.density);
 
   const Matrix j_free = optimum.jacobian(Eigen::all, free);

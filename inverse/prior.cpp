@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -157,6 +158,20 @@ PriorTerms prior_terms(const Prior& prior, const std::vector<Command>& unknowns)
   rows.into(terms);
   hold_fixed(prior, unknowns, terms);
   return terms;
+}
+
+std::vector<Eigen::Index> PriorTerms::open() const {
+  std::vector<Eigen::Index> result;
+  for (Eigen::Index i = 0; i < lower.size(); ++i)
+    if (!fixed(i)) result.push_back(i);
+  return result;
+}
+
+BoxGaussian PriorTerms::density() const {
+  const auto which = open();
+  const Matrix h = hessian()(which, which);
+  const Vector slope = gradient(lower)(which);  // the fixed ones are at their values there
+  return about(Vector(lower(which)) - h.llt().solve(slope), h, lower(which), upper(which));
 }
 
 Prior with_effort(Prior prior, double times) {

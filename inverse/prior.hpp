@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "inverse/box_gaussian.hpp"
 #include "inverse/commands.hpp"
 
 namespace genio {
@@ -54,6 +55,10 @@ struct PriorTerms {
   Vector gradient(const Vector& z) const { return rows.transpose() * (rows * z - values); }
   Matrix hessian() const { return rows.transpose() * rows; }
   bool fixed(Eigen::Index i) const { return lower[i] == upper[i]; }
+  /// Those that are not fixed.
+  std::vector<Eigen::Index> open() const;
+  /// The prior of these, given the fixed ones.
+  BoxGaussian density() const;
 };
 
 /// Throws InputError for muscles that are no unknowns, or forces out of bounds.

@@ -53,6 +53,13 @@ TEST(BoxGaussian, ABoundOnOneUnknownNarrowsWhatTradesWithIt) {
   EXPECT_LT(s.row(0).maxCoeff(), 0.26);
 }
 
+// Its slope at a bound it does not press on was once taken for pressing on the other one.
+TEST(BoxGaussian, FarFromItsModeIsStillAboutItsCentre) {
+  const Vector s = sample(one(0, -4000, 1e4, 0, 1), 20000).row(0);
+  EXPECT_NEAR(mean(s), 0.4, 1e-3);
+  EXPECT_NEAR(sd(s), 0.01, 1e-3);
+}
+
 TEST(BoxGaussian, LogIntegralIsThatOfTheLimits) {
   EXPECT_NEAR(log_integral(one(0.5, 0, 1e4, 0, 1)), 0.5 * std::log(2 * M_PI / 1e4), 1e-12);
   EXPECT_NEAR(log_integral(one(0, 1e3, 1, 0, 1)), -std::log(1e3), 1e-12);
