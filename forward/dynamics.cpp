@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "forward/motion_step.hpp"
 #include "forward/quasi_newton.hpp"
 
 namespace genio {
@@ -15,65 +16,6 @@ namespace {
 constexpr int most_iterations = 20;     // on one factor
 constexpr int most_order = 6;           // of the extrapolation from earlier steps
 constexpr double shortest_step = 1e-7;  // [s]
-
-/// Displacement, velocity and acceleration of the unknowns.
-struct State {
-  double time = 0;
-  Vector u, v, a;
-  Vector viscous;  // viscous force of the step that led here, at its instant t_{n+1-alpha_f} [N]
-};
-
-/// The equation of motion of one step as a function of the displacement at its end.
-class Step {
- public:
-  Step(const Model& model, const NodeMatrix& mass, const TimeScheme& scheme, const State& from,
-       double dt, const Parameters& p)
-      : model_(model), mass_(mass), s_(scheme), from_(from), dt_(dt), p_(p) {}
-
-  State at(const Vector& u) const {
-    State to{from_.time + dt_, u, {}, {}, {}};
-    to.a = (u - from_.u - dt_ * from_.v) / (s_.beta * dt_ * dt_) - (0.5 / s_.beta - 1) * from_.a;
-    to.v = from_.v + dt_ * ((1 - s_.gamma) * from_.a + s_.gamma * to.a);
-    return to;
-  }
-  Positions shape(const Vector& u) const {
-    return model_.rest + model_.dofs.expand((1 - s_.alpha_f) * u + s_.alpha_f * from_.u);
-  }
-  Vector velocity(const State& to) const {
-    return model_.dofs.expand((1 - s_.alpha_f) * to.v + s_.alpha_f * from_.v);
-  }
-  /// What is unbalanced [N].
-  Vector residual(const Vector& u) {
-    const State to = at(u);
-    const Positions x = shape(u);
-    Forces viscous;
-    const Forces f = forces_in_motion(model_, x, velocity(to), p_, viscous);
-    viscous_ = model_.dofs.reduce(viscous);
-    const Vector a = (1 - s_.alpha_m) * to.a + s_.alpha_m * from_.a;
-    return model_.dofs.reduce(f - multiply(mass_, model_.dofs.expand(a))) + viscous_;
-  }
-  /// The viscous part of the last residual [N].
-  const Vector& viscous() const { return viscous_; }
-  /// Its derivative, factorised. False where it is not positive definite.
-  bool factorize(const Vector& u, Stiffness& scratch, Workspace& ws) const {
-    const Positions x = shape(u);
-    stiffness(model_, x, p_, ws.stiffness);
-    add_damping(model_, x, velocity(at(u)), p_, s_.gamma / (s_.beta * dt_), scratch, ws.stiffness);
-    ws.stiffness.add(mass_, (1 - s_.alpha_m) / ((1 - s_.alpha_f) * s_.beta * dt_ * dt_));
-    const bool done = ws.factorize(model_, x, p_);
-    ws.mixed.forget();  // not the bulk of a static stiffness: no start for a static solve
-    return done;
-  }
-
- private:
-  const Model& model_;
-  const NodeMatrix& mass_;
-  const TimeScheme& s_;
-  const State& from_;
-  double dt_;
-  const Parameters& p_;
-  Vector viscous_;
-};
 
 class Simulation {
  public:
@@ -90,11 +32,12 @@ class Simulation {
 
  private:
   /// The state after `dt`; false when its iterations do not converge.
-  bool advance(const State& from, double dt, State& to, Trajectory& result);
+  bool advance(const MotionState& from, double dt, MotionState& to, Trajectory& result);
   Vector first_acceleration(const Positions& start);
-  Vector predict(const State& from, double dt) const;
-  Instant instant(const State& s) const;
-  void record(const State& before, const State& after, Instant now, Trajectory& result) const;
+  Vector predict(const MotionState& from, double dt) const;
+  Instant instant(const MotionState& s) const;
+  void record(const MotionState& before, const MotionState& after, Instant now,
+              Trajectory& result) const;
 
   const Model& model_;
   const CommandsOverTime& commands_;
@@ -103,13 +46,13 @@ class Simulation {
   NodeMatrix mass_;
   Stiffness scratch_;
   InverseUpdates updates_;
-  double factor_step_ = 0;      // the step that the factor was made for; 0: none
-  std::vector<State> history_;  // of equal steps
+  double factor_step_ = 0;            // the step that the factor was made for; 0: none
+  std::vector<MotionState> history_;  // of equal steps
 };
 
 /// Extrapolates the displacements of the last equal steps by the polynomial that would have met the
 /// last of them best.
-Vector Simulation::predict(const State& from, double dt) const {
+Vector Simulation::predict(const MotionState& from, double dt) const {
   const int n = int(history_.size());
   int equal = 0;  // steps of this length
   while (equal + 1 < n && std::abs(history_[size_t(n - 1 - equal)].time -
@@ -134,10 +77,10 @@ Vector Simulation::predict(const State& from, double dt) const {
   return best == 0 ? Vector(from.u + dt * from.v) : extrapolated(best, 0);
 }
 
-bool Simulation::advance(const State& from, double dt, State& to, Trajectory& result) {
+bool Simulation::advance(const MotionState& from, double dt, MotionState& to, Trajectory& result) {
   const TimeScheme& s = options_.scheme;
   const Parameters p = commands_.at(from.time + (1 - s.alpha_f) * dt);
-  Step step(model_, mass_, s, from, dt, p);
+  MotionStep step(model_, mass_, s, from, dt, p);
   Vector u = predict(from, dt);
   const double allowed = options_.tolerance * load_size(model_, step.shape(u), p);
   if (factor_step_ != dt) {
@@ -181,7 +124,7 @@ bool Simulation::advance(const State& from, double dt, State& to, Trajectory& re
   return true;
 }
 
-Instant Simulation::instant(const State& s) const {
+Instant Simulation::instant(const MotionState& s) const {
   const Positions x = model_.rest + model_.dofs.expand(s.u);
   const Vector v = model_.dofs.expand(s.v);
   return {s.time, x, v, 0.5 * v.dot(multiply(mass_, v)), energy(model_, x, commands_.at(s.time)),
@@ -190,7 +133,7 @@ Instant Simulation::instant(const State& s) const {
 
 /// What viscous forces took, by their value in the middle of the step, and what changing parameters
 /// did, by the trapezoidal rule.
-void Simulation::record(const State& before, const State& after, Instant now,
+void Simulation::record(const MotionState& before, const MotionState& after, Instant now,
                         Trajectory& result) const {
   const Instant& last = result.instants.back();
   const double back =
@@ -218,7 +161,7 @@ Vector Simulation::first_acceleration(const Positions& start) {
 }
 
 void Simulation::run(const Positions& start, Trajectory& result) {
-  State s;
+  MotionState s;
   s.u = model_.dofs.pick(start - model_.rest);
   s.v = Vector::Zero(s.u.size());
   s.a = first_acceleration(start);
@@ -228,7 +171,7 @@ void Simulation::run(const Positions& start, Trajectory& result) {
   double dt = std::min(options_.step, options_.duration);
   while (s.time < options_.duration * (1 - 1e-9)) {
     const double wanted = std::min(dt, options_.duration - s.time);
-    State next;
+    MotionState next;
     Instant now;
     bool good = advance(s, wanted, next, result);
     if (good) now = instant(next), good = std::isfinite(now.potential);  // right side out

@@ -119,12 +119,6 @@ void Contact::add_force_derivative(const Positions& x, EffectParameters p, int k
   });
 }
 
-double Contact::dissipation(const Positions& x, const Vector& v, EffectParameters p) const {
-  Forces f = Forces::Zero(x.size());
-  add_viscous_force(x, v, p, f);
-  return -0.5 * f.dot(v);
-}
-
 void Contact::add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
                                 Forces& f) const {
   if (p[1] == 0) return;

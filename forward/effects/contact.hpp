@@ -47,7 +47,6 @@ class Contact final : public Effect {
                             Forces& df) const override;
   /// No node goes deeper than `reach` in one step, unless it is deeper already.
   double step_limit(const Positions& x, const Positions& along, EffectParameters p) const override;
-  double dissipation(const Positions& x, const Vector& v, EffectParameters p) const override;
   void add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
                          Forces& f) const override;
   void add_damping(const Positions& x, const Vector& v, EffectParameters p,

@@ -71,10 +71,12 @@ class Effect {
     return 1.0;
   }
 
-  /// Dissipation function R of the nodal velocities v in the shape x [W]; convex in v.
-  virtual double dissipation(const Positions& /*x*/, const Vector& /*v*/,
-                             EffectParameters /*p*/) const {
-    return 0;
+  /// Dissipation function R of the nodal velocities v in the shape x [W]; convex in v. Here that of
+  /// a viscous force linear in v.
+  virtual double dissipation(const Positions& x, const Vector& v, EffectParameters p) const {
+    Forces f = Forces::Zero(x.size());
+    add_viscous_force(x, v, p, f);
+    return -0.5 * f.dot(v);
   }
   /// Adds -dR/dv [N].
   virtual void add_viscous_force(const Positions& /*x*/, const Vector& /*v*/,

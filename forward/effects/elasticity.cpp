@@ -23,12 +23,6 @@ std::vector<std::string> Elasticity::borrows() const {
   return {"viscosity.beta"};
 }
 
-double Elasticity::dissipation(const Positions& x, const Vector& v, EffectParameters p) const {
-  Forces f = Forces::Zero(x.size());
-  add_viscous_force(x, v, p, f);
-  return -0.5 * f.dot(v);
-}
-
 void Elasticity::add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
                                    Forces& f) const {
   if (beta(p) != 0) add_stiffness_product(x, v, scaled(p, -beta(p)), f);

@@ -22,7 +22,6 @@ class Elasticity final : public TissueEffect {
   std::string_view name() const override { return "elasticity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
   std::vector<std::string> borrows() const override;
-  double dissipation(const Positions& x, const Vector& v, EffectParameters p) const override;
   void add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
                          Forces& f) const override;
   void add_forces_in_motion(const Positions& x, const Vector& v, EffectParameters p, Forces& f,

@@ -6,10 +6,6 @@ Viscosity::Viscosity(NodeMatrix mass, double alpha, double beta)
     : mass_(std::move(mass)),
       info_{{{"alpha", "1/s", alpha, 0, 1e4, 0}, {"beta", "s", beta, 0, 10, 0}}} {}
 
-double Viscosity::dissipation(const Positions&, const Vector& v, EffectParameters p) const {
-  return 0.5 * p[0] * v.dot(multiply(mass_, v));
-}
-
 void Viscosity::add_viscous_force(const Positions&, const Vector& v, EffectParameters p,
                                   Forces& f) const {
   if (p[0] != 0) f -= p[0] * multiply(mass_, v);

@@ -21,7 +21,6 @@ class Viscosity final : public Effect {
   void add_stiffness(const Positions&, EffectParameters, Stiffness&) const override {}
   void add_force_derivative(const Positions&, EffectParameters, int, Forces&) const override {}
 
-  double dissipation(const Positions& x, const Vector& v, EffectParameters p) const override;
   void add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
                          Forces& f) const override;
   void add_damping(const Positions& x, const Vector& v, EffectParameters p,
