@@ -81,7 +81,7 @@ int run(const InvertOptions& o) {
     fmt::print(stderr, "{} of {} frames are known from the run before\n", answers.size(),
                frames.size());
 
-  ProgressLine progress(int(answers.size()), int(frames.size()), true);
+  ProgressLine progress(int(answers.size()), int(frames.size()));
   // Runs of neighbours, as each frame starts where the one before ended.
   const int workers = std::clamp(o.threads, 1, std::max(1, int(open.size())));
   const auto share = [&](int k) { return open.size() * size_t(k) / size_t(workers); };

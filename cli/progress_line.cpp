@@ -20,18 +20,13 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(int done, int total, bool shown)
-    : first_(done),
-      done_(done),
-      total_(total),
-      shown_(shown && total > 1),
-      terminal_(isatty(STDERR_FILENO)),
-      started_(now()) {}
+ProgressLine::ProgressLine(int done, int total)
+    : first_(done), done_(done), total_(total), terminal_(isatty(STDERR_FILENO)), started_(now()) {}
 
 void ProgressLine::step() {
   ++done_;
   const bool tenth = 10 * done_ / total_ != 10 * (done_ - 1) / total_;
-  if (!shown_ || (!terminal_ && !tenth)) return;
+  if (total_ < 2 || (!terminal_ && !tenth)) return;
   constexpr int width = 24;
   const int full = width * done_ / total_;
   const double each = (now() - started_) / (done_ - first_);

@@ -7,12 +7,12 @@ namespace genio::cli {
 /// every tenth part elsewhere. Nothing for a single item.
 class ProgressLine {
  public:
-  ProgressLine(int done, int total, bool shown);
+  ProgressLine(int done, int total);
   void step();
 
  private:
   int first_, done_, total_;
-  bool shown_, terminal_;
+  bool terminal_;
   double started_;
 };
 

@@ -153,12 +153,6 @@ void compare_surface(const SurfacePoint& point, const std::vector<std::array<int
 
 }  // namespace
 
-Vec3 FleshPoint::on(const Positions& x) const {
-  Vec3 place = Vec3::Zero();
-  for (const auto& [node, share] : at) place += share * node_position(x, node);
-  return place;
-}
-
 Comparison::Comparison(const Model& model, Target target)
     : target_(std::move(target)), line_(model), rest_(model.rest), middle_(target_.middle()) {
   if (!target_.surface.empty())

@@ -4,6 +4,12 @@
 
 namespace genio {
 
+Vec3 FleshPoint::on(const Positions& x) const {
+  Vec3 place = Vec3::Zero();
+  for (const auto& [node, share] : at) place += share * node_position(x, node);
+  return place;
+}
+
 bool Target::midsagittal() const {
   if (!surface.empty()) return false;
   for (const auto& f : flesh)

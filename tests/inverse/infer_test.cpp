@@ -3,26 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "inverse/objective.hpp"
-#include "tests/forward/small_model.hpp"
+#include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
 namespace {
 
-class Infer : public testing::Test {
- protected:
-  Target simulated(const std::vector<std::pair<const char*, double>>& forces) {
-    Parameters p = default_parameters(m);
-    for (const auto& [name, f] : forces) set_command(m, name, f, p);
-    const auto e = solve_equilibrium(m, p, m.rest, ws);
-    EXPECT_TRUE(e) << e.message;
-    return curve_target(m, e.x, 40, 5e-4);
-  }
-  const Model m = read_model(test::generic_model());
-  Workspace ws{m};
-};
+using Infer = test::PulledTongue;
 
 TEST_F(Infer, MeetsASimulatedShapeFromRest) {
-  const auto a = infer(m, simulated({{"GGP", 2.8}, {"SL", 1.2}, {"GH", 0.9}}), Prior{}, ws);
+  const auto a = infer(m, pulled({{"GGP", 2.8}, {"SL", 1.2}, {"GH", 0.9}}), Prior{}, ws);
   ASSERT_EQ(a.status, InferStatus::converged) << a.message;
   EXPECT_LT(1e3 * a.rms, 0.05);
   EXPECT_EQ(a.verdict, Verdict::explained);
@@ -36,7 +25,7 @@ TEST_F(Infer, MeetsASimulatedShapeFromRest) {
 }
 
 TEST_F(Infer, GradientIsTheDerivativeOfTheObjective) {
-  const Comparison comparison(m, simulated({{"GGP", 2}, {"HG", 1}}));
+  const Comparison comparison(m, pulled({{"GGP", 2}, {"HG", 1}}));
   const InferOptions options;
   Objective objective(m, comparison, Prior{}, options, ws);
   const Vector z = Vector::Constant(Eigen::Index(objective.commands().size()), 0.02);
@@ -51,7 +40,7 @@ TEST_F(Infer, GradientIsTheDerivativeOfTheObjective) {
 }
 
 TEST_F(Infer, HessianIsTheDerivativeOfTheGradient) {
-  Target t = simulated({{"GGP", 2}, {"HG", 1}});
+  Target t = pulled({{"GGP", 2}, {"HG", 1}});
   for (auto& p : t.curve) p.position += Vec2(1e-3, 3e-3);  // a misfit whose curvature counts
   const Comparison comparison(m, t);
   const InferOptions options;
@@ -80,7 +69,7 @@ TEST_F(Infer, ShapeBeyondAllMusclesIsNotExplained) {
 }
 
 TEST_F(Infer, DeadlineAndCancelEndTheWork) {
-  const Target t = simulated({{"GGP", 3}});
+  const Target t = pulled({{"GGP", 3}});
   InferOptions options;
   options.deadline_s = 1e-3;
   EXPECT_EQ(infer(m, t, Prior{}, ws, options).status, InferStatus::deadline);

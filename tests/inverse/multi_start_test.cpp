@@ -2,20 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/forward/small_model.hpp"
+#include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
 namespace {
 
-class MultiStart : public testing::Test {
+class MultiStart : public test::PulledTongue {
  protected:
-  Target pulled(const std::vector<std::pair<const char*, double>>& forces) {
-    Parameters p = default_parameters(m);
-    for (const auto& [name, f] : forces) set_command(m, name, f, p);
-    return curve_target(m, solve_equilibrium(m, p, m.rest, ws).x, 40, 5e-4);
-  }
-  const Model m = read_model(test::generic_model());
-  Workspace ws{m};
   AtlasCache cache;
 };
 

@@ -7,25 +7,20 @@
 
 #include "inverse/infer.hpp"
 #include "inverse/objective.hpp"
-#include "tests/forward/small_model.hpp"
+#include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
 namespace {
 
 namespace fs = std::filesystem;
 
-class PriorTest : public testing::Test {
+class PriorTest : public test::PulledTongue {
  protected:
   double activation(const Answer& a, const std::string& name) {
     for (const auto& c : a.commands)
       if (c.name == name) return c.force / c.max_force;
     ADD_FAILURE() << name;
     return 0;
-  }
-  Target pulled(const std::vector<std::pair<const char*, double>>& forces, double sigma = 1e-3) {
-    Parameters p = default_parameters(m);
-    for (const auto& [name, f] : forces) set_command(m, name, f, p);
-    return curve_target(m, solve_equilibrium(m, p, m.rest, ws).x, 30, sigma);
   }
   std::string file(const std::string& name, const std::string& text) {
     const fs::path folder = fs::temp_directory_path() / "genio_prior_test";
@@ -41,8 +36,6 @@ class PriorTest : public testing::Test {
     }
     return "";
   }
-  const Model m = read_model(test::generic_model());
-  Workspace ws{m};
 };
 
 TEST_F(PriorTest, TermsAreTheirOwnDerivatives) {
@@ -60,6 +53,21 @@ TEST_F(PriorTest, TermsAreTheirOwnDerivatives) {
               1e-8 * t.gradient(z).norm());
   EXPECT_NEAR(((t.gradient(z + h * d) - t.gradient(z - h * d)) / (2 * h) - t.hessian() * d).norm(),
               0, 1e-7 * (t.hessian() * d).norm());
+}
+
+TEST_F(PriorTest, DensityKnowsWhatIsFixed) {
+  Prior prior;
+  prior.symmetry_sd = 1e-3;
+  prior.fixed["GGP_L"] = 0.2 * m.parameters[size_t(command_parameters(m, "GGP_L")[0])].info.upper;
+  const auto u = unknowns(m, prior, false);
+  const PriorTerms t = prior_terms(prior, u);
+  const auto open = t.open();
+  ASSERT_EQ(open.size(), u.size() - 1);
+  const Vector mean = sample(t.density(), 2000).rowwise().mean();
+  for (size_t i = 0; i < open.size(); ++i)
+    if (u[size_t(open[i])].name == "GGP_R") {
+      EXPECT_NEAR(mean[Eigen::Index(i)], 0.2, 1e-2);
+    }
 }
 
 TEST_F(PriorTest, SymmetryTiesTheSides) {
@@ -80,7 +88,7 @@ TEST_F(PriorTest, FixedMusclesStayWhereTheyAre) {
   Prior prior;
   prior.fixed["MH"] = 0;
   prior.fixed["GGP"] = 2.5;
-  const Answer a = infer(m, pulled({{"GGP", 2.5}, {"SL", 0.8}}), prior, ws);
+  const Answer a = infer(m, pulled({{"GGP", 2.5}, {"SL", 0.8}}, 30, 1e-3), prior, ws);
   ASSERT_EQ(a.status, InferStatus::converged) << a.message;
   for (const auto& c : a.commands) {
     if (c.name != "MH" && c.name != "GGP") continue;
@@ -93,7 +101,7 @@ TEST_F(PriorTest, FixedMusclesStayWhereTheyAre) {
 }
 
 TEST_F(PriorTest, EmgDecidesWhatTheShapeLeavesOpen) {
-  const Target t = pulled({{"GGP", 4}, {"TRANS", 2}});
+  const Target t = pulled({{"GGP", 4}, {"TRANS", 2}}, 30, 1e-3);
   Prior prior;
   prior.emg["MH"] = {0.3, 0.01};
   const Answer without = infer(m, t, Prior{}, ws), with = infer(m, t, prior, ws);
@@ -102,7 +110,7 @@ TEST_F(PriorTest, EmgDecidesWhatTheShapeLeavesOpen) {
 }
 
 TEST_F(PriorTest, CocontractionSetsTheMeanActivation) {
-  const Target t = pulled({{"GGP", 2}});
+  const Target t = pulled({{"GGP", 2}}, 30, 1e-3);
   Prior prior;
   prior.cocontraction = Normal{0.1, 0.002};
   const Answer a = infer(m, t, prior, ws);
@@ -112,7 +120,7 @@ TEST_F(PriorTest, CocontractionSetsTheMeanActivation) {
 }
 
 TEST_F(PriorTest, AMovedHeadIsFoundAlong) {
-  Target t = pulled({{"GGP", 3}, {"SL", 1}}, 3e-4);
+  Target t = pulled({{"GGP", 3}, {"SL", 1}}, 30, 3e-4);
   for (auto& p : t.curve) p.position += Vec2(1.5e-3, -1e-3);
   Prior prior;
   prior.head_pose = Prior::HeadPose{2e-3, 0.02};

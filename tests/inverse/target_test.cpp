@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "inverse/infer.hpp"
-#include "tests/forward/small_model.hpp"
+#include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
 namespace {
 
-class TargetTest : public testing::Test {
+class TargetTest : public test::PulledTongue {
  protected:
   /// One target of every kind, a little off the rest shape.
   Target mixed() const {
@@ -33,7 +33,6 @@ class TargetTest : public testing::Test {
       p += (0.05 + 0.02 * k) * m.mesh.nodes[size_t(m.mesh.elements[100][size_t(k)])];
     return p / (8 * 0.05 + 0.02 * 28);
   }
-  const Model m = read_model(test::generic_model());
 };
 
 TEST_F(TargetTest, ATissuePointIsWhereItWasTaken) {
@@ -71,11 +70,7 @@ TEST_F(TargetTest, ResidualsHaveTheirOwnDerivatives) {
 }
 
 TEST_F(TargetTest, AnOutlierCountsLittleUnderStudentsNoise) {
-  Workspace ws(m);
-  Parameters p = default_parameters(m);
-  set_command(m, "GGP", 3, p);
-  const auto e = solve_equilibrium(m, p, m.rest, ws);
-  const Target clean = curve_target(m, e.x, 40, 5e-4);
+  const Target clean = pulled({{"GGP", 3}});
   Target dirty = clean;
   for (int k : {10, 11, 25}) dirty.curve[size_t(k)].position += Vec2(0, 0.012);
   Target robust = dirty;
