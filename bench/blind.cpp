@@ -36,8 +36,8 @@ double middle(const std::vector<double>& v) { return v.empty() ? 0 : median(v); 
 Json blind(const ModelDescription& description, int count, const Progress& progress) {
   const Model model = build_model(description, "model");
   const Model truth = build_model(refined(with_turned_fibres(description, fibre_turn, 2)), "truth");
-  Workspace ws(model), truth_ws(truth);
-  AtlasCache atlas;
+  InferWorkspace ws(model);
+  Workspace truth_ws(truth);
   const auto commands = muscle_commands(model, true);
   std::mt19937 random(2026);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -66,7 +66,7 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
     const Target clean = curve_target(truth, e.x, points, noise);
     Target target = clean;
     for (auto& q : target.curve) q.position += noise * Vec2(normal(random), normal(random));
-    const Answer a = infer_from_starts(model, target, Prior{}, ws, atlas);
+    const Answer a = infer_from_starts(model, target, Prior{}, ws);
     ++converged.of;
     if (a.status != InferStatus::converged) {
       failures.push_back(a.message);

@@ -25,8 +25,11 @@ Json inversion_cost(const Model& m, const Progress& progress) {
                                       {{"STY", 1.5}, {"GGM", 0.8}, {"TRANS", 2.0}},
                                       {{"IL", 0.5}, {"GGP", 2.0}, {"TRANS", 1.5}}};
   Workspace ws(m);
-  AtlasCache atlas;
-  const double atlas_s = seconds([&] { atlas.get(m, Prior{}, true, ws); });
+  InferWorkspace worker(m);
+  TongueState* half = worker.half(Prior{});
+  TongueState& tongue = half ? *half : worker.whole();
+  const double atlas_s =
+      seconds([&] { tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace); });
   std::vector<double> cold, warm, differences;
   Json cases = Json::array();
   for (const Forces& truth : truths) {
@@ -36,7 +39,7 @@ Json inversion_cost(const Model& m, const Progress& progress) {
         seconds([&] { e = solve_equilibrium(m, parameters(m, truth), m.rest, fresh); });
     if (!e) throw std::runtime_error("the bench target has no equilibrium: " + e.message);
     Target target = curve_target(m, e.x, 40, 0.5e-3);
-    const Answer first = infer_from_starts(m, target, Prior{}, ws, atlas);
+    const Answer first = infer_from_starts(m, target, Prior{}, worker);
     // The same optimiser from the same start, once with each gradient.
     InferOptions from_rest;
     const Answer exact = infer(m, target, Prior{}, ws, from_rest);
@@ -46,7 +49,8 @@ Json inversion_cost(const Model& m, const Progress& progress) {
     for (auto& p : target.curve) p.position += Vec2(0.2e-3, 0.45e-3);
     InferOptions next;
     next.start = first.activations, next.start_shape = first.shape;
-    const Answer second = infer_from_starts(m, target, Prior{}, ws, atlas, next, {1});
+    next.start_by_unknown = first.shape_by_unknown;
+    const Answer second = infer_from_starts(m, target, Prior{}, worker, next, {1});
     cold.push_back(first.wall_s / forward), warm.push_back(second.wall_s / forward);
     differences.push_back(differenced.wall_s / exact.wall_s);
     cases.push_back({{"forward_s", forward},

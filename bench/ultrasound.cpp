@@ -25,14 +25,14 @@ std::vector<const ContourFrame*> middle_frames(const ContourFile& file) {
 }
 
 Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& transform,
-                  double noise, Workspace& ws, AtlasCache& atlas) {
+                  double noise, InferWorkspace& ws) {
   Json j = {{"frame", frame.number}, {"label", frame.label}};
   const Target target = make_target(m, registered(m, frame, transform), noise);
   if (target.empty()) {
     j["status"] = "failed", j["message"] = frame.note;
     return j;
   }
-  const Answer a = infer_from_starts(m, target, Prior{}, ws, atlas);
+  const Answer a = infer_from_starts(m, target, Prior{}, ws);
   j["status"] = to_string(a.status), j["verdict"] = to_string(a.verdict), j["message"] = a.message;
   j["rms_mm"] = 1e3 * a.rms, j["max_mm"] = 1e3 * a.max;
   j["wall_s"] = a.wall_s, j["factorizations"] = a.factorizations;
@@ -46,13 +46,12 @@ Json ultrasound(const Model& m, const std::string& contours, const std::string& 
                 const Progress& progress) {
   const ContourFile file = read_contours(contours);
   const Registration r = register_file(m, file, palate);
-  Workspace ws(m);
-  AtlasCache atlas;
+  InferWorkspace ws(m);
   Json frames = Json::array();
   std::vector<double> rms, seconds;
   int empty = 0;
   for (const ContourFrame* frame : middle_frames(file)) {
-    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws, atlas);
+    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws);
     if (progress)
       progress(fmt::format("{:>5}  {:<28} {:<10} {:<12} {:5.2f} mm {:6.2f} s  {}", frame->number,
                            frame->label, j["status"].get<std::string>(), j.value("verdict", ""),

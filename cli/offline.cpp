@@ -34,8 +34,7 @@ AnswerView unanswered(const ContourFrame& frame) {
 
 void answer_frames(const Model& model, const std::vector<Frame>& frames, const OfflineOptions& o,
                    const nlohmann::json& before, const Send& send) {
-  Workspace ws(model);
-  AtlasCache atlas;
+  InferWorkspace ws(model);
   InferOptions infer = o.infer;
   double last_time = std::nan("");
   for (const Frame& frame : frames) {
@@ -51,10 +50,11 @@ void answer_frames(const Model& model, const std::vector<Frame>& frames, const O
         prior.before =
             Prior::Before{infer.start, prior.smoothness_sd * std::sqrt(dt > 0 ? dt : default_step)};
       }
-      answer = infer_from_starts(model, frame.target, prior, ws, atlas, infer, o.starts);
+      answer = infer_from_starts(model, frame.target, prior, ws, infer, o.starts);
       view = view_of(model, frame.target, answer, frame_title(frame.contour));
       if (answer.status == InferStatus::converged)
-        infer.start = answer.activations, infer.start_shape = answer.shape;
+        infer.start = answer.activations, infer.start_shape = answer.shape,
+        infer.start_by_unknown = answer.shape_by_unknown;
       last_time = frame.contour.time_s;
     }
     if (!o.out.empty()) {

@@ -9,6 +9,7 @@ Model build_model(const ModelDescription& d, const std::string& source) {
   check_mesh(d.mesh, source);
   Model model;
   model.name = d.name;
+  model.description = std::make_shared<const ModelDescription>(d);
   model.mesh = d.mesh;
   model.supports = supports_for(d);
   model.muscles = d.muscles;

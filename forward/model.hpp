@@ -33,8 +33,12 @@ struct Landmarks {
   int tip = -1, dorsum = -1, root = -1;  ///< node numbers, 0-based
 };
 
+struct ModelDescription;
+
 struct Model {
   std::string name;
+  /// What it was built from; null where it was put together by hand.
+  std::shared_ptr<const ModelDescription> description;
   HexMesh mesh;
   std::vector<Support> supports;  ///< one a node
   std::vector<Muscle> muscles;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "forward/sensitivity.hpp"
+#include "inverse/curvature.hpp"
+
 namespace genio {
 namespace {
 
@@ -22,8 +25,12 @@ Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspa
     SolveOptions options;
     options.max_load_steps = 4;
     const auto e = solve_equilibrium(model, apply_commands(commands, z, base), start, ws, options);
-    if (e) atlas.entries.push_back({z, e.x});
-    return bool(e);
+    if (!e) return false;
+    Matrix by_unknown =
+        sensitivity_to_forces(model, e, command_pulls(model, commands, e.x, e.parameters), ws);
+    if (by_unknown.size() == 0) return false;
+    atlas.entries.push_back({z, e.x, std::move(by_unknown)});
+    return true;
   };
   if (!add(rest, model.rest)) return atlas;
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -11,6 +11,7 @@ struct Atlas {
   struct Entry {
     Vector unknowns;  ///< z
     Positions shape;  ///< [m]
+    Matrix by_unknown;  ///< its derivative, 3 n x unknowns
   };
   std::vector<Entry> entries;
   std::vector<std::string> names;  ///< of the unknowns it is for

@@ -17,18 +17,32 @@ constexpr double inside = 1e-9;        // of the box: where the first trajectory
 constexpr int most_bounces = 2000;
 constexpr double pressing = 30;  // slope at a bound, in units of the Gaussian's own
 
-/// First time in (0, end] at which f.(a sin t + b cos t) + c falls to zero; `end` when it never
-/// does.
-double hit(double fa, double fb, double c, double end) {
-  const double size = std::hypot(fa, fb);
-  if (!(size > std::abs(c))) return end;
+/// First time t > 0 at which a sin t + b cos t + c falls to zero; it does.
+double hit(double a, double b, double c) {
   // size cos(t - phase) = -c, on its way down
-  const double phase = std::atan2(fa, fb);
-  double t = phase + std::acos(-c / size);
+  double t = std::atan2(a, b) + std::acos(std::clamp(-c / std::hypot(a, b), -1.0, 1.0));
   t = std::fmod(t, 2 * std::numbers::pi);
-  if (t < 0) t += 2 * std::numbers::pi;
-  return std::min(t, end);
+  return t < 0 ? t + 2 * std::numbers::pi : t;
 }
+
+/// What h(t) = a sin t + b cos t + c >= 0 allows of a quarter circle, for many h at once.
+struct Arc {
+  double end, sine, cosine;
+  Eigen::Index wall = -1;  // that ends it
+
+  explicit Arc(double longest) { stop(longest, -1); }
+  void stop(double t, Eigen::Index at) {
+    end = t, sine = std::sin(t), cosine = std::cos(t), wall = at;
+  }
+  /// h(0) >= 0. Over a quarter circle h has one minimum at most, so that its ends tell whether it
+  /// can have a root at all: most need no trigonometry.
+  void cut(double a, double b, double c, Eigen::Index at) {
+    const bool below = a * sine + b * cosine + c < 0;
+    const bool dips = a < 0 && a * cosine - b * sine > 0 && a * a + b * b > c * c;
+    if (!below && !dips) return;
+    if (const double t = hit(a, b, c); t < end) stop(t, at);
+  }
+};
 
 /// Hamiltonian Monte Carlo on all of the unknowns.
 Matrix bouncing(const BoxGaussian& g, int count, std::mt19937_64& random) {
@@ -42,7 +56,7 @@ Matrix bouncing(const BoxGaussian& g, int count, std::mt19937_64& random) {
   Vector offset(2 * n);
   rows << r, -r;
   offset << centre - g.lower, g.upper - centre;
-  const Vector norms = rows.rowwise().squaredNorm();
+  const Matrix products = rows * rows.transpose();
   const Vector slack = inside * (g.upper - g.lower);
   const Vector start = g.mode.cwiseMax(g.lower + slack).cwiseMin(g.upper - slack);
   Vector y = factor.matrixU() * (start - centre);
@@ -51,20 +65,22 @@ Matrix bouncing(const BoxGaussian& g, int count, std::mt19937_64& random) {
   for (int k = -warming; k < count; ++k) {
     Vector v(n);
     for (auto& e : v) e = normal(random);
+    Vector a = rows * v, b = rows * y;
     double left = 0.5 * std::numbers::pi;
     for (int bounce = 0; bounce < most_bounces && left > 0; ++bounce) {
-      const Vector a = rows * v, b = rows * y;
-      double first = left;
-      Eigen::Index which = -1;
-      for (Eigen::Index i = 0; i < 2 * n; ++i)
-        if (const double t = hit(a[i], b[i], offset[i], left); t < first) first = t, which = i;
-      const Vector moved = std::sin(first) * v + std::cos(first) * y;
-      v = std::cos(first) * v - std::sin(first) * y;
-      y = moved;
-      left -= first;
-      if (which < 0) break;
-      const auto f = rows.row(which);
-      v -= 2 * f.dot(v) / norms[which] * f.transpose();
+      Arc arc(left);
+      for (Eigen::Index i = 0; i < 2 * n; ++i) arc.cut(a[i], b[i], offset[i], i);
+      const auto turn = [&](Vector& along, Vector& at) {
+        const Vector before = along;
+        along = arc.cosine * before - arc.sine * at;
+        at = arc.sine * before + arc.cosine * at;
+      };
+      turn(v, y), turn(a, b);
+      left -= arc.end;
+      if (arc.wall < 0) break;
+      const double back = 2 * a[arc.wall] / products(arc.wall, arc.wall);
+      v -= back * rows.row(arc.wall).transpose();
+      a -= back * products.col(arc.wall);
     }
     if (k >= 0) samples.col(k) = (centre + r * y).cwiseMax(g.lower).cwiseMin(g.upper);
   }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "forward/closest_point.hpp"
+#include "inverse/moved_target.hpp"
 #include "inverse/target.hpp"
 
 namespace genio {
@@ -11,49 +12,21 @@ namespace {
 
 constexpr double outlier = 3;  // standard deviations
 
-/// The target's points under a head pose, and how a residual follows the pose.
-class Moved {
- public:
-  Moved(const HeadPose& pose, const Vec2& middle) : pose_(pose), middle_(middle) {
-    turn_ << std::cos(pose.turn), -std::sin(pose.turn), std::sin(pose.turn), std::cos(pose.turn);
-  }
-  Vec2 operator()(const Vec2& q) const { return middle_ + pose_.shift + turn_ * (q - middle_); }
-  Vec3 operator()(const Vec3& q) const {
-    const Vec2 moved = (*this)(Vec2(q[0], q[2]));
-    return {moved[0], q[1], moved[1]};
-  }
-  /// From the derivative with respect to the moved point.
-  Vec3 by_pose(const Vec2& moved, const Vec2& slope) const {
-    const Vec2 arm = moved - middle_ - pose_.shift;
-    return {slope[0], slope[1], slope.dot(Vec2(-arm[1], arm[0]))};
-  }
-
- private:
-  const HeadPose& pose_;
-  const Vec2& middle_;
-  Eigen::Matrix2d turn_;
-};
-
 /// Fills a Residuals row by row and point by point.
 class Builder {
  public:
-  Builder(const Moved& moved, double dof) : moved_(moved), dof_(dof) {}
+  Builder(const MovedTarget& moved, double dof) : moved_(moved), dof_(dof) {}
 
   /// One residual: its value, its derivative with respect to nodes, and to the moved point (x, z).
   void row(double r, std::vector<std::pair<int, Vec3>> gradient, const Vec2& point,
            const Vec2& slope, double sigma, int axis = -1) {
-    double factor = 1;
     outliers_ += std::abs(r) > outlier;
-    if (dof_ > 0) {
-      const double soft = std::copysign(std::sqrt(dof_ * std::log1p(r * r / dof_)), r);
-      factor = std::abs(r) > 1e-6 ? r / (1 + r * r / dof_) / soft : 1;
-      r = soft;
-    }
-    for (auto& [node, g] : gradient) g *= factor;
-    values_.push_back(r);
-    pose_.push_back(factor * moved_.by_pose(point, slope));
+    const SoftLoss soft(r, dof_);
+    for (auto& [node, g] : gradient) g *= soft.slope;
+    values_.push_back(soft.value);
+    pose_.push_back(soft.slope * moved_.by_pose(point).transpose() * slope);
     gradient_.push_back(std::move(gradient));
-    rows_.push_back({int(places_.size()), axis, factor / sigma});
+    rows_.push_back({int(places_.size()), axis, soft.slope / sigma});
   }
   void point(double distance, const Vec3& place) {
     distances_.push_back(distance);
@@ -77,7 +50,7 @@ class Builder {
   }
 
  private:
-  const Moved& moved_;
+  const MovedTarget& moved_;
   double dof_;
   std::vector<Residuals::Row> rows_;
   std::vector<double> values_, distances_;
@@ -87,7 +60,7 @@ class Builder {
 };
 
 void compare_curve(const CurvePoint& point, const TongueLine& line, const Positions& x,
-                   const Moved& moved, Builder& rows) {
+                   const MovedTarget& moved, Builder& rows) {
   const Vec2 q = moved(point.position);
   const auto c = line.closest(x, q);
   const Vector w = line.weights(c.t);
@@ -102,7 +75,7 @@ void compare_curve(const CurvePoint& point, const TongueLine& line, const Positi
   rows.point(std::abs(c.distance), Vec3(foot[0], 0, foot[1]));
 }
 
-void compare_flesh(const FleshPoint& point, const Positions& x, const Moved& moved, Builder& rows) {
+void compare_flesh(const FleshPoint& point, const Positions& x, const MovedTarget& moved, Builder& rows) {
   const Vec3 q = moved(point.position), on = point.on(x);
   Vec3 off = on - q;
   for (int i = 0; i < 3; ++i) {
@@ -120,7 +93,7 @@ void compare_flesh(const FleshPoint& point, const Positions& x, const Moved& mov
 }
 
 void compare_surface(const SurfacePoint& point, const std::vector<std::array<int, 3>>& triangles,
-                     const Positions& x, const Moved& moved, Builder& rows) {
+                     const Positions& x, const MovedTarget& moved, Builder& rows) {
   // Few hundred faces against few hundred points: a tree over a moving surface would not pay.
   const Vec3 q = moved(point.position);
   double best = std::numeric_limits<double>::infinity();
@@ -160,10 +133,16 @@ Comparison::Comparison(const Model& model, Target target)
       triangles_.push_back({q[0], q[1], q[2]});
       triangles_.push_back({q[0], q[2], q[3]});
     }
+  if (!target_.curve.empty()) nodes_ = line_.nodes();
+  for (const auto& f : target_.flesh)
+    for (const auto& [node, share] : f.at) nodes_.push_back(node);
+  for (const auto& t : triangles_) nodes_.insert(nodes_.end(), t.begin(), t.end());
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
 Residuals Comparison::operator()(const Positions& x, const HeadPose& pose) const {
-  const Moved moved(pose, middle_);
+  const MovedTarget moved(pose, middle_);
   Builder rows(moved, target_.outlier_dof);
   for (const auto& point : target_.curve) compare_curve(point, line_, x, moved, rows);
   for (const auto& point : target_.flesh) compare_flesh(point, x, moved, rows);

@@ -1,12 +1,39 @@
 #include "inverse/curvature.hpp"
 
-#include <algorithm>
-
 namespace genio {
 namespace {
 
-constexpr double step = 1e-6;  // longest displacement of a node or a target point [m]
-constexpr double arm = 0.03;   // of a target point about the middle [m]
+constexpr double step = 1e-6;          // longest displacement of a node [m]
+constexpr double unknown_step = 1e-4;  // of an unknown
+constexpr double nothing = 1e-9;       // relative
+
+/// K at x, times each column.
+Matrix products(const Model& model, const Positions& x, const Parameters& p, const Matrix& columns,
+                Stiffness& k) {
+  stiffness(model, x, p, k);
+  Matrix result(columns.rows(), columns.cols());
+  for (Eigen::Index c = 0; c < columns.cols(); ++c) result.col(c) = k.multiply(columns.col(c));
+  return result;
+}
+
+/// lambda . dP_j/dz_i; zero, and cheap, where forces are linear in the unknowns.
+Matrix pull_changes(const Model& model, const std::vector<Command>& commands, const Vector& z,
+                    const Positions& x, const Parameters& p, const Vector& adjoint) {
+  const auto pulls = [&](const Vector& at) -> Vector {
+    return command_pulls(model, commands, x, apply_commands(commands, at, p)).transpose() * adjoint;
+  };
+  const Eigen::Index n = z.size();
+  Matrix changes = Matrix::Zero(n, n);
+  Vector uneven(n);
+  for (Eigen::Index i = 0; i < n; ++i) uneven[i] = 1 + 0.37 * double(i % 5);
+  const Vector here = pulls(z);
+  if ((pulls(z + unknown_step * uneven) - here).norm() <= nothing * here.norm()) return changes;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vector e = unknown_step * Vector::Unit(n, i);
+    changes.row(i) = (pulls(z + e) - pulls(z - e)).transpose() / (2 * unknown_step);
+  }
+  return changes;
+}
 
 }  // namespace
 
@@ -22,42 +49,42 @@ Matrix command_pulls(const Model& model, const std::vector<Command>& commands, c
   return pulls;
 }
 
-Vector misfit_gradient(const Residuals& residuals, const Vector& values, Eigen::Index size) {
+Vector misfit_gradient(const Residuals& residuals, Eigen::Index size) {
   Vector g = Vector::Zero(size);
   for (size_t k = 0; k < residuals.gradient.size(); ++k)
     for (const auto& [node, slope] : residuals.gradient[k])
-      g.segment<3>(3 * node) += values[Eigen::Index(k)] * slope;
+      g.segment<3>(3 * node) += residuals.values[Eigen::Index(k)] * slope;
   return g;
 }
 
-Matrix misfit_curvature(const Model& model, const Comparison& comparison,
-                        const std::vector<Command>& commands, const Vector& z,
-                        const Equilibrium& equilibrium, const Residuals& residuals,
-                        const Matrix& positions, const Vector& adjoint, Workspace& ws) {
-  const Positions& x = equilibrium.x;
-  const Eigen::Index n = positions.cols();
-  const Matrix by_pose = pose_derivative(commands);
-  Matrix s = Matrix::Zero(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double size = std::max({positions.col(i).cwiseAbs().maxCoeff(),
-                                  by_pose.col(i).head<2>().norm(), arm * std::abs(by_pose(2, i))});
-    if (size == 0) continue;
-    const double h = step / size;
-    for (const double e : {h, -h}) {
-      const Vector there = z + e * Vector::Unit(n, i);
-      const Positions y = x + e * positions.col(i);
-      const Parameters p = apply_commands(commands, there, equilibrium.parameters);
-      const Residuals r = comparison(y, head_pose(commands, there));
-      Vector slope = misfit_gradient(r, residuals.values, x.size());
-      Vector row = by_pose.transpose() * (r.pose.transpose() * residuals.values);
-      if (!positions.col(i).isZero(0)) {
-        stiffness(model, y, p, ws.stiffness);
-        slope -= ws.stiffness.multiply(adjoint);
-        row += command_pulls(model, commands, y, p).transpose() * adjoint;
-      }
-      s.row(i) += (row + positions.transpose() * slope).transpose() / (2 * e);
-    }
-  }
+Matrix target_curvature(const Comparison& comparison, const Positions& x, const HeadPose& pose,
+                        const Residuals& residuals, const Matrix& positions,
+                        const Matrix& pose_by_unknown) {
+  Matrix all(positions.rows() + 3, positions.cols());
+  all << positions, pose_by_unknown;
+  Matrix product = Matrix::Zero(all.rows(), all.cols());
+  for (const auto& e : comparison.curvature(x, pose, residuals))
+    product.row(e.row()) += e.value() * all.row(e.col());
+  const Matrix c = all.transpose() * product;
+  return 0.5 * (c + c.transpose());
+}
+
+Matrix mechanical_curvature(const Model& model, const std::vector<Command>& commands,
+                            const Vector& z, const Positions& x, const Parameters& p,
+                            const Matrix& positions, const Vector& adjoint, Workspace& ws) {
+  const double size = adjoint.cwiseAbs().maxCoeff();
+  const Eigen::Index n = z.size();
+  if (size == 0) return Matrix::Zero(n, n);
+  const double h = step / size;
+  const Positions up = x + h * adjoint, down = x - h * adjoint;
+  const Matrix bent = (products(model, up, p, positions, ws.stiffness) -
+                       products(model, down, p, positions, ws.stiffness)) /
+                      (2 * h);
+  const Matrix pulled =
+      (command_pulls(model, commands, up, p) - command_pulls(model, commands, down, p)) / (2 * h);
+  const Matrix crossed = positions.transpose() * pulled;
+  const Matrix s = crossed + crossed.transpose() - positions.transpose() * bent +
+                   pull_changes(model, commands, z, x, p, adjoint);
   return 0.5 * (s + s.transpose());
 }
 

@@ -12,17 +12,22 @@ Matrix command_pulls(const Model& model, const std::vector<Command>& commands, c
                      const Parameters& p);
 
 /// The derivative of the misfit with respect to the nodal positions, sum_k r_k dr_k/dx [1/m].
-Vector misfit_gradient(const Residuals& residuals, const Vector& values, Eigen::Index size);
+Vector misfit_gradient(const Residuals& residuals, Eigen::Index size);
 
-/// sum_k r_k d2 r_k / dz_i dz_j over the unknowns z: the target's own curvature and that of the
-/// map from commands to shapes. With X = dx/dz, P = dF/dz and the adjoint K lambda = sum r dr/dx,
-///   S_ij = X_j . d/de [ sum_k r_k dr_k/dx - K lambda ] + lambda . d/de P_j,
-/// the derivative along x + e X_i, z + e by differences, so that every target, every effect and
-/// every parameter counts (head pose likewise). Costs an assembly an unknown and no factorisation;
-/// uses ws.stiffness only.
-Matrix misfit_curvature(const Model& model, const Comparison& comparison,
-                        const std::vector<Command>& commands, const Vector& z,
-                        const Equilibrium& equilibrium, const Residuals& residuals,
-                        const Matrix& positions, const Vector& adjoint, Workspace& ws);
+/// The target's own curvature, sum_k r_k d2 r_k, over unknowns that move the nodes by `positions`
+/// (3 n x count) and the pose by `pose_by_unknown` (3 x count).
+Matrix target_curvature(const Comparison& comparison, const Positions& x, const HeadPose& pose,
+                        const Residuals& residuals, const Matrix& positions,
+                        const Matrix& pose_by_unknown);
+
+/// The curvature that the map from unknowns to shapes adds. With X = dx/dz, P = dF/dz and the
+/// adjoint K lambda = sum r dr/dx, differentiating K X = P once more gives
+///   lambda . K X_ij = -X_i . (dK) X_j + X_i . (dP_j) + X_j . (dP_i) + lambda . dP_j/dz_i,
+/// (dK) and (dP) the derivatives along lambda: the energy's third derivatives are symmetric, so one
+/// direction serves all pairs of unknowns. By differences, so that every effect and parameter
+/// counts: two assemblies. Overwrites ws.stiffness.
+Matrix mechanical_curvature(const Model& model, const std::vector<Command>& commands,
+                            const Vector& z, const Positions& x, const Parameters& p,
+                            const Matrix& positions, const Vector& adjoint, Workspace& ws);
 
 }  // namespace genio

@@ -1,7 +1,7 @@
 #include "inverse/infer.hpp"
 
+#include "inverse/difference_descent.hpp"
 #include "inverse/objective.hpp"
-#include "inverse/optimiser.hpp"
 #include "inverse/posterior.hpp"
 
 namespace genio {
@@ -47,42 +47,38 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
   Objective objective(model, comparison, prior, options, ws);
   const Eigen::Index n = Eigen::Index(objective.commands().size());
   const bool warm = options.start.size() == n;
-  const Vector &lower = objective.prior().lower, &upper = objective.prior().upper;
   Vector start = warm ? options.start : Vector::Constant(n, 1e-2);
-  start = start.cwiseMax(lower).cwiseMin(upper);
+  start = start.cwiseMax(objective.lower()).cwiseMin(objective.upper());
 
   Answer answer;
+  const auto descent = [&](DescentOptions how) {
+    how.progress = options.progress;
+    const DescentResult r = options.finite_differences
+                                ? descend_by_differences(objective, start, how)
+                                : descend(objective, start, how);
+    answer.iterations += r.solver_iterations;
+    if (r.u.size() == n) start = r.u;
+    return r;
+  };
   if (!warm || options.rough_start) {
     // From rest the first steps tend to set muscles against each other far beyond what the shape
     // needs. Effort that counts more keeps them near; its optimum is a start for the real one.
-    InferOptions rough = options;
-    rough.tolerance = 1e-2;
-    rough.max_iterations = 15;
     objective.set_prior(with_effort(prior, 0.25));
-    const OptimiserResult near = minimise(objective, start, false, rough);
+    descent({15, 1e-2, {}});
     objective.set_prior(prior);
-    answer.iterations = near.iterations;
-    if (near.activations.size() == n) start = near.activations;
   }
-  const OptimiserResult optimum = minimise(objective, start, true, options);
-  answer.iterations += optimum.iterations;
+  const DescentResult optimum = descent({options.max_iterations, options.tolerance, {}});
   answer.status = optimum.converged     ? InferStatus::converged
                   : objective.stopped() ? objective.stop_reason()
                                         : InferStatus::failed;
   answer.message = optimum.message;
-  if (answer.status == InferStatus::converged) {
-    // What the barrier holds off a bound it would reach belongs on it.
-    Vector rounded = optimum.activations;
-    for (Eigen::Index i = 0; i < n; ++i)
-      rounded[i] = rounded[i] < lower[i] + 1e-3   ? lower[i]
-                   : rounded[i] > upper[i] - 1e-3 ? upper[i]
-                                                  : rounded[i];
-    const auto* point =
-        options.finite_differences ? objective.value(rounded) : objective.derivatives(rounded);
-    if (!point && !options.finite_differences) point = objective.derivatives(optimum.activations);
+  if (optimum.converged) {
+    const auto* point = options.finite_differences ? objective.at(start)
+                                                   : objective.derivatives(start);
     if (point) {
       answer.activations = point->activations;
       answer.shape = point->equilibrium.x;
+      answer.shape_by_unknown = point->positions;
       answer.residuals = point->residuals;
       answer.rms = point->residuals.rms;
       answer.max = point->residuals.max;

@@ -21,6 +21,9 @@ struct InferOptions {
   ModelError model_error;                ///< widens what the posterior claims
   Vector start;                          ///< activations to start from; empty: rest
   std::optional<Positions> start_shape;  ///< the equilibrium shape near `start`
+  /// Its derivative (3 n x unknowns), where an earlier solve left it: then `start_shape` is taken to
+  /// be the very equilibrium of `start`, and the first step costs no mechanics.
+  Matrix start_by_unknown;
   bool rough_start = false;  ///< `start` is only a guess: go near under more effort first
   /// Gradient by differences and a quasi-Newton Hessian, to compare with: no posterior.
   bool finite_differences = false;
@@ -77,14 +80,14 @@ struct Answer {
   double chi2_per_dof = 0;
   Residuals residuals;
   Vector activations;
-  Positions shape;  ///< [m]
+  Positions shape;          ///< [m]
+  Matrix shape_by_unknown;  ///< its derivative, for the next frame's start
   int iterations = 0, factorizations = 0, forward_solves = 0;
   double wall_s = 0;
 };
 
 /// The forces within [0, maximum] that minimise 1/2 sum (distance / sigma)^2 + 1/2 sum
-/// (activation / effort_sd)^2, by Ipopt with the exact gradient and the Gauss-Newton Hessian, and
-/// the Laplace posterior about them. Throws InputError for an empty target.
+/// (activation / effort_sd)^2, see descend(), and the Laplace posterior about them. Throws InputError for an empty target.
 ///
 /// This is one descent from one start; multi_start.hpp has the search for all that fit.
 Answer infer(const Model& model, const Target& target, const Prior& prior, Workspace& ws,

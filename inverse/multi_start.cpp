@@ -10,7 +10,6 @@ constexpr double least_weight = 0.01;  // of an alternative worth telling
 constexpr double apart = 3;            // posterior standard deviations between distinct optima
 constexpr int patience = 4;            // descents for a target that no answer explains
 constexpr int warm_patience = 2;       // the same with a start of the caller's
-constexpr double leave_bound = 1e-2;   // activation
 
 /// Draws of the prior within its bounds, a column each.
 Matrix prior_draws(const PriorTerms& prior, int count) {
@@ -32,24 +31,19 @@ bool distinct(const Answer& a, const Answer& b) {
 
 /// Where to start from when nothing better is known, in the order to try.
 std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, const Prior& prior,
-                                  Workspace& ws, AtlasCache& cache, const InferOptions& options,
-                                  int count) {
+                                  TongueState& tongue, const InferOptions& options, int count) {
   std::vector<Atlas::Entry> starts;
   const bool bilateral = options.bilateral.value_or(target.midsagittal());
   const auto commands = unknowns(model, prior, bilateral);
   const PriorTerms terms = prior_terms(prior, commands);
-  const Atlas& atlas = cache.get(model, prior, bilateral, ws);
+  const Atlas& atlas = tongue.atlas.get(model, prior, bilateral, tongue.workspace);
   for (const Atlas::Entry* e : nearest(atlas, Comparison(model, target), commands, terms)) {
     if (int(starts.size()) == count) return starts;
-    starts.push_back({e->unknowns, e->shape});
-    // On a bound a barrier method sees nothing.
-    for (Eigen::Index i = 0; i < e->unknowns.size(); ++i)
-      if (commands[size_t(i)].kind == Command::Kind::muscle)
-        starts.back().unknowns[i] = std::max(e->unknowns[i], leave_bound);
+    starts.push_back(*e);
   }
   const int drawn = count - int(starts.size());
   const Matrix draws = prior_draws(terms, std::max(0, drawn));
-  for (int k = 0; k < drawn; ++k) starts.push_back({draws.col(k), {}});
+  for (int k = 0; k < drawn; ++k) starts.push_back({draws.col(k), {}, {}});
   return starts;
 }
 
@@ -73,33 +67,32 @@ Answer weighed(std::vector<Answer> found) {
   return best;
 }
 
-}  // namespace
-
-Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
-                         Workspace& ws, AtlasCache& atlas, const InferOptions& options,
-                         const StartOptions& start_options) {
-  if (target.empty()) throw InputError("the target has no points");
+Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue,
+                   const InferOptions& options, const StartOptions& start_options) {
+  const Model& model = *tongue.model;
   const bool until_explained = start_options.starts == 0;
   const bool given = options.start.size() > 0;
   const int most = !until_explained ? start_options.starts : given ? warm_patience : patience;
   std::vector<Atlas::Entry> starts;
-  if (given) starts.push_back({options.start, options.start_shape.value_or(Positions())});
+  if (given) starts.push_back({options.start, options.start_shape.value_or(Positions()),
+                              options.start_by_unknown});
   std::vector<Answer> found;
   Answer last;
   double wall = 0;
   int iterations = 0, factorizations = 0, solves = 0;
   for (int k = 0; k < most; ++k) {
     if (k == int(given))  // not before they are needed
-      for (Atlas::Entry& guess : guesses(model, target, prior, ws, atlas, options, most - k))
+      for (Atlas::Entry& guess : guesses(model, target, prior, tongue, options, most - k))
         starts.push_back(std::move(guess));
     const Atlas::Entry& start = starts[size_t(k)];
     InferOptions here = options;
     here.start = start.unknowns;
     here.start_shape.reset();
     if (start.shape.size() > 0) here.start_shape = start.shape;
+    here.start_by_unknown = start.by_unknown;
     here.rough_start = start.shape.size() == 0;
     if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - wall) <= 0) break;
-    last = infer(model, target, prior, ws, here);
+    last = infer(model, target, prior, tongue.workspace, here);
     wall += last.wall_s, iterations += last.iterations;
     factorizations += last.factorizations, solves += last.forward_solves;
     if (last.status == InferStatus::converged) found.push_back(last);
@@ -110,6 +103,24 @@ Answer infer_from_starts(const Model& model, const Target& target, const Prior& 
   best.wall_s = wall, best.iterations = iterations;
   best.factorizations = factorizations, best.forward_solves = solves;
   return best;
+}
+
+}  // namespace
+
+Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
+                         InferWorkspace& ws, const InferOptions& options,
+                         const StartOptions& start_options) {
+  if (target.empty()) throw InputError("the target has no points");
+  if (is_symmetric(target, prior, options)) {
+    prior_terms(prior, unknowns(model, prior, true));  // errors speak of the whole tongue
+    if (TongueState* half = ws.half(prior)) {
+      const Mirror& mirror = ws.mirror();
+      return whole_answer(mirror,
+                          from_starts(half_target(mirror, target), half_prior(prior), *half,
+                                      half_options(mirror, options), start_options));
+    }
+  }
+  return from_starts(target, prior, ws.whole(), options, start_options);
 }
 
 }  // namespace genio

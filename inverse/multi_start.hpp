@@ -1,7 +1,7 @@
 #pragma once
 // All forces that fit, not only the nearest.
 
-#include "inverse/atlas.hpp"
+#include "inverse/infer_workspace.hpp"
 
 namespace genio {
 
@@ -13,9 +13,10 @@ struct StartOptions {
 /// infer() from the shapes of the atlas that come nearest to the target (or from options.start
 /// first, where it is given), then from draws of the prior: the likeliest optimum found, with those
 /// that differ from it by more than their own spread as alternatives. Weights are shares of the
-/// Laplace evidence. The atlas is made when it is first needed.
+/// Laplace evidence. The atlas is made when it is first needed. Symmetric problems are solved on
+/// half a tongue, see is_symmetric().
 Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
-                         Workspace& ws, AtlasCache& atlas, const InferOptions& options = {},
+                         InferWorkspace& ws, const InferOptions& options = {},
                          const StartOptions& start_options = {});
 
 }  // namespace genio

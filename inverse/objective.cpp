@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "forward/sensitivity.hpp"
 #include "inverse/curvature.hpp"
@@ -10,15 +11,15 @@
 namespace genio {
 namespace {
 
-constexpr double near_bound = 2e-3;   // activation
-constexpr double large_misfit = 1.5;  // chi-square a residual
-constexpr double near_optimum = 1;    // fall of the objective still to be had
 constexpr double trial_tolerance = 1e-8;
-constexpr double longest_step = 5e-3;  // of any node between two points [m]
-constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr int trial_factorizations = 10;
+constexpr double longest_guess = 2e-3;  // of any node [m]
+constexpr double small_gain = 0.1;    // of the objective
+constexpr double near_bound = 2e-3;  // activation
 
-/// The optimiser comes back to points that it has rounded.
-bool same(const Vector& a, const Vector& b) { return (a - b).cwiseAbs().maxCoeff() < 1e-12; }
+bool same(const Vector& a, const Vector& b) {
+  return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() < 1e-12;
+}
 
 }  // namespace
 
@@ -59,44 +60,54 @@ void Objective::set_prior(const Prior& prior) {
   if (have_anchor_) weigh(anchor_);
 }
 
+bool Objective::known_start(const Vector& activations, ObjectivePoint& point) const {
+  if (!options_.start_shape || !same(activations, options_.start) ||
+      options_.start_by_unknown.cols() != activations.size())
+    return false;
+  point.equilibrium.status = SolveStatus::converged;
+  point.equilibrium.x = *options_.start_shape;
+  point.equilibrium.parameters = apply_commands(commands_, activations, base_);
+  return true;
+}
+
 bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
   if (stopped()) return false;
   point.activations = activations;
-  const Parameters p = apply_commands(commands_, activations, base_);
-  Positions start = model_.rest;
-  SolveOptions solve_options;
-  if (have_anchor_ && options_.finite_differences) {
-    start = anchor_.equilibrium.x;
-  } else if (have_anchor_) {
-    // Beyond what its linearisation can foresee a step is refused, which costs nothing; the
-    // optimiser comes back with a shorter one.
-    const Vector step = anchor_.positions * (activations - anchor_.activations);
-    start = anchor_.equilibrium.x + step;
-    if (step.cwiseAbs().maxCoeff() > longest_step || !std::isfinite(energy(model_, start, p))) {
-      failure_ = "the step is too long to follow";
+  if (!known_start(activations, point)) {
+    const Parameters p = apply_commands(commands_, activations, base_);
+    Positions start = model_.rest;
+    SolveOptions solve_options;
+    if (have_anchor_) {
+      // Over a long way a straight guess is worse than the solver's own path. A step into inverted
+      // tissue is refused, which costs nothing; a shorter one follows.
+      start = anchor_.equilibrium.x;
+      const Vector way = anchor_.positions * (activations - anchor_.activations);
+      if (way.cwiseAbs().maxCoeff() < longest_guess) start = ws_.curved(start, way);
+      if (!std::isfinite(energy(model_, start, p))) {
+        failure_ = "the step is too long to follow";
+        return false;
+      }
+      solve_options.tolerance = trial_tolerance;
+      solve_options.max_factorizations = trial_factorizations;
+      solve_options.max_load_steps = 0;
+    } else if (have_last_) {
+      start = last_.equilibrium.x;
+    } else if (options_.start_shape) {
+      start = *options_.start_shape;
+    }
+    ++forward_solves_;
+    point.equilibrium = solve_equilibrium(model_, p, start, ws_, solve_options);
+    if (!point.equilibrium) {
+      failure_ = point.equilibrium.message;
       return false;
     }
-    solve_options.tolerance = trial_tolerance;
-    solve_options.max_factorizations = 10;
-    solve_options.max_load_steps = 0;
-  } else if (have_last_) {
-    start = last_.equilibrium.x;
-  } else if (options_.start_shape) {
-    start = *options_.start_shape;
-  }
-  ++forward_solves_;
-  point.equilibrium = solve_equilibrium(model_, p, start, ws_, solve_options);
-  if (!point.equilibrium) {
-    failure_ = point.equilibrium.message;
-    return false;
   }
   point.residuals = comparison_(point.equilibrium.x, head_pose(commands_, activations));
-  point.positions.resize(0, 0);
   weigh(point);
   return true;
 }
 
-const ObjectivePoint* Objective::value(const Vector& activations) {
+const ObjectivePoint* Objective::at(const Vector& activations) {
   if (have_last_ && same(last_.activations, activations)) return &last_;
   if (have_anchor_ && same(anchor_.activations, activations)) return &anchor_;
   ObjectivePoint point;
@@ -106,32 +117,84 @@ const ObjectivePoint* Objective::value(const Vector& activations) {
   return &last_;
 }
 
-const ObjectivePoint* Objective::derivatives(const Vector& activations) {
-  if (have_anchor_ && same(anchor_.activations, activations)) return &anchor_;
-  if (!value(activations)) return nullptr;
-  ObjectivePoint point = last_;
-  if (options_.finite_differences) {
-    point.gradient = difference_gradient(point);
-    if (point.gradient.size() == 0) return nullptr;
-    anchor_ = std::move(point);
-    have_anchor_ = true;
-    return &anchor_;
-  }
-  const Matrix pull =
-      command_pulls(model_, commands_, point.equilibrium.x, point.equilibrium.parameters);
-  point.positions = sensitivity_to_forces(model_, point.equilibrium, pull, ws_);
-  if (point.positions.size() == 0) {
-    failure_ = "the equilibrium is unstable";
-    return nullptr;
-  }
-  point.adjoint = model_.dofs.expand(ws_.cholesky.solve(model_.dofs.reduce(
-      misfit_gradient(point.residuals, point.residuals.values, point.equilibrium.x.size()))));
+std::optional<double> Objective::value(const Vector& activations) {
+  const auto* p = at(activations);
+  return p ? std::optional(p->value) : std::nullopt;
+}
+
+void Objective::set_positions(ObjectivePoint& point, Matrix positions) const {
+  point.positions = std::move(positions);
   point.jacobian = residual_jacobian(point.residuals, point.positions) +
                    point.residuals.pose * pose_derivative(commands_);
   weigh(point);
+}
+
+const ObjectivePoint* Objective::keep(ObjectivePoint point) {
   anchor_ = std::move(point);
   have_anchor_ = true;
   return &anchor_;
+}
+
+const ObjectivePoint* Objective::derivatives(const Vector& activations) {
+  if (have_anchor_ && same(anchor_.activations, activations) && anchor_.adjoint.size() > 0)
+    return &anchor_;
+  const auto* here = at(activations);
+  if (!here) return nullptr;
+  ObjectivePoint point = *here;
+  const Positions& x = point.equilibrium.x;
+  const auto n = Eigen::Index(commands_.size());
+  Matrix right(x.size(), n + 1);
+  right << command_pulls(model_, commands_, x, point.equilibrium.parameters),
+      misfit_gradient(point.residuals, x.size());
+  const Matrix solved = sensitivity_to_forces(model_, point.equilibrium, right, ws_);
+  if (solved.size() == 0) {
+    failure_ = "the equilibrium is unstable";
+    return nullptr;
+  }
+  point.adjoint = solved.col(n);
+  set_positions(point, solved.leftCols(n));
+  return keep(std::move(point));
+}
+
+std::unique_ptr<LocalProblem> Objective::local(const Vector& activations) {
+  const ObjectivePoint* point = nullptr;
+  ObjectivePoint start;
+  if (!have_anchor_ && known_start(activations, start)) {
+    start = *at(activations);
+    set_positions(start, options_.start_by_unknown);
+    point = keep(std::move(start));
+  } else {
+    point = derivatives(activations);
+  }
+  if (!point) return nullptr;
+  std::vector<int> all(commands_.size());
+  std::iota(all.begin(), all.end(), 0);
+  LocalShape shape(comparison_, point->equilibrium.x, point->positions,
+                   head_pose(commands_, activations), pose_derivative(commands_), all);
+  if (point->adjoint.size() > 0 && curvature_counts(*point))
+    shape.curvature = point->mechanical, shape.target_curvature = point->target;
+  return std::make_unique<LocalProblem>(std::vector{std::move(shape)},
+                                        QuadraticTerm{prior_.rows.sparseView(), prior_.values},
+                                        activations);
+}
+
+bool Objective::curvature_counts(const ObjectivePoint& point) const {
+  if (promised_gain(point, gauss_newton(point)) > small_gain * point.value) return false;
+  return std::isfinite(promised_gain(point, exact_hessian(point)));
+}
+
+double Objective::promised_gain(const ObjectivePoint& point, const Matrix& h) const {
+  const Vector &z = point.activations, &g = point.gradient;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < z.size(); ++i)
+    if (!(z[i] < prior_.lower[i] + near_bound && g[i] > 0) &&
+        !(z[i] > prior_.upper[i] - near_bound && g[i] < 0) && !prior_.fixed(i))
+      free.push_back(i);
+  if (free.empty()) return 0;
+  const Vector slope = g(free);
+  const Eigen::LLT<Matrix> factor(Matrix(h(free, free)));
+  return factor.info() == Eigen::Success ? 0.5 * slope.dot(factor.solve(slope))
+                                         : std::numeric_limits<double>::infinity();
 }
 
 Vector Objective::difference_gradient(const ObjectivePoint& point) {
@@ -147,44 +210,20 @@ Vector Objective::difference_gradient(const ObjectivePoint& point) {
   return gradient;
 }
 
-double Objective::promised_gain() const {
-  if (options_.finite_differences) return unbounded;
-  return have_anchor_ ? promised_gain(anchor_, hessian(anchor_)) : unbounded;
-}
-
-double Objective::promised_gain(const ObjectivePoint& point, const Matrix& h) const {
-  const Vector &z = point.activations, &g = point.gradient;
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < z.size(); ++i)
-    if (!(z[i] < prior_.lower[i] + near_bound && g[i] > 0) &&
-        !(z[i] > prior_.upper[i] - near_bound && g[i] < 0) && !prior_.fixed(i))
-      free.push_back(i);
-  if (free.empty()) return 0;
-  const Vector slope = g(free);
-  const Eigen::LLT<Matrix> factor(Matrix(h(free, free)));
-  return factor.info() == Eigen::Success ? 0.5 * slope.dot(factor.solve(slope)) : unbounded;
-}
-
 Matrix Objective::gauss_newton(const ObjectivePoint& point) const {
   return point.jacobian.transpose() * point.jacobian + prior_.hessian();
 }
 
 Matrix Objective::exact_hessian(const ObjectivePoint& point) const {
-  if (point.curvature.size() == 0)
-    point.curvature =
-        misfit_curvature(model_, comparison_, commands_, point.activations, point.equilibrium,
-                         point.residuals, point.positions, point.adjoint, ws_);
-  return gauss_newton(point) + point.curvature;
-}
-
-Matrix Objective::hessian(const ObjectivePoint& point) const {
-  const Matrix rough = gauss_newton(point);
-  // What Gauss-Newton leaves out goes with the residuals; within noise they hardly bend the valley.
-  const bool small =
-      point.residuals.values.squaredNorm() < large_misfit * double(point.residuals.values.size());
-  if (small || promised_gain(point, rough) > near_optimum) return rough;
-  const Matrix exact = exact_hessian(point);
-  return promised_gain(point, exact) < unbounded ? exact : rough;
+  if (point.mechanical.size() == 0) {
+    const Positions& x = point.equilibrium.x;
+    point.mechanical = mechanical_curvature(model_, commands_, point.activations, x,
+                                            point.equilibrium.parameters, point.positions,
+                                            point.adjoint, ws_);
+    point.target = target_curvature(comparison_, x, head_pose(commands_, point.activations),
+                                    point.residuals, point.positions, pose_derivative(commands_));
+  }
+  return gauss_newton(point) + point.mechanical + point.target;
 }
 
 }  // namespace genio

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "inverse/descent.hpp"
 #include "inverse/infer.hpp"
 
 namespace genio {
@@ -13,17 +14,17 @@ struct ObjectivePoint {
   Equilibrium equilibrium;
   Residuals residuals;
   double value = 0;
-  // Filled on demand:
+  // With derivatives:
   Matrix positions;  ///< dx/d activation, 3 n x count
   Matrix jacobian;   ///< d residual / d unknown
   Vector gradient;
-  Vector adjoint;            ///< K^-1 of the misfit's derivative with respect to the positions
-  mutable Matrix curvature;  ///< misfit_curvature(), once asked for
+  Vector adjoint;  ///< K^-1 of the misfit's derivative with respect to the positions
+  mutable Matrix mechanical, target;  ///< parts of the curvature, once asked for
 };
 
 /// Evaluates and remembers. The last point whose sensitivities are known predicts the shape of the
 /// next, so that equilibrium is found in a few cheap steps.
-class Objective {
+class Objective final : public MisfitProblem {
  public:
   Objective(const Model& model, const Comparison& comparison, const Prior& prior,
             const InferOptions& options, Workspace& ws);
@@ -31,41 +32,45 @@ class Objective {
   /// Changes the prior; what is remembered stays valid but for its value and gradient.
   void set_prior(const Prior& prior);
   const PriorTerms& prior() const { return prior_; }
-
   const std::vector<Command>& commands() const { return commands_; }
+
   /// nullptr where no equilibrium was found or the time is up.
-  const ObjectivePoint* value(const Vector& activations);
-  /// As value(), with gradient and jacobian.
+  const ObjectivePoint* at(const Vector& activations);
+  /// As at(), with the derivatives.
   const ObjectivePoint* derivatives(const Vector& activations);
-  /// Gauss-Newton Hessian at a point whose derivatives are known.
   Matrix gauss_newton(const ObjectivePoint& point) const;
   /// The Hessian with the second derivatives of the residuals, which count where the misfit stays
   /// large.
   Matrix exact_hessian(const ObjectivePoint& point) const;
-  /// For the optimiser and the posterior: Gauss-Newton far from the optimum, where it is always
-  /// positive definite and foresees more; near it exact, as Gauss-Newton zigzags there if the
-  /// misfit stays large, unless the commands free to move have negative curvature.
-  Matrix hessian(const ObjectivePoint& point) const;
+  /// By an equilibrium an unknown, to compare with; empty where one is not found.
+  Vector difference_gradient(const ObjectivePoint& point);
 
-  /// The fall of the objective that its quadratic model still promises within the bounds at
-  /// the latest point with derivatives; infinite before there is one.
-  double promised_gain() const;
-  /// The latest point with derivatives; nullptr before there is one.
-  const ObjectivePoint* latest() const { return have_anchor_ ? &anchor_ : nullptr; }
+  const Vector& lower() const override { return prior_.lower; }
+  const Vector& upper() const override { return prior_.upper; }
+  std::optional<double> value(const Vector& activations) override;
+  std::unique_ptr<LocalProblem> local(const Vector& activations) override;
+  bool stopped() override;
+  const std::string& last_failure() const override { return failure_; }
+  double rms() const override { return have_last_ ? last_.residuals.rms : 0; }
 
-  bool stopped();
   InferStatus stop_reason() const { return stop_; }
-  const std::string& last_failure() const { return failure_; }
   int factorizations() const { return ws_.cholesky.factorizations() - factorizations_before_; }
   int forward_solves() const { return forward_solves_; }
   double seconds() const;
 
  private:
-  /// Infinite where `hessian` is indefinite over the commands free to move.
-  double promised_gain(const ObjectivePoint& point, const Matrix& hessian) const;
   void weigh(ObjectivePoint& point) const;
-  Vector difference_gradient(const ObjectivePoint& point);
   bool solve(const Vector& activations, ObjectivePoint& point);
+  /// The caller's start, taken at its word.
+  bool known_start(const Vector& activations, ObjectivePoint& point) const;
+  void set_positions(ObjectivePoint& point, Matrix positions) const;
+  const ObjectivePoint* keep(ObjectivePoint point);
+  /// True where Gauss-Newton foresees no large gain any more, so that what it leaves out matters,
+  /// and the exact Hessian bends upwards. Farther away Gauss-Newton foresees more.
+  bool curvature_counts(const ObjectivePoint& point) const;
+  /// The fall of the quadratic model with this Hessian over the unknowns that no bound presses on;
+  /// infinite where it is indefinite.
+  double promised_gain(const ObjectivePoint& point, const Matrix& hessian) const;
 
   const Model& model_;
   const Comparison& comparison_;

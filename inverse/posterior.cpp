@@ -46,7 +46,6 @@ LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint&
   const auto restricted = [&](const Matrix& h) -> Matrix { return h(which, which); };
   Matrix h = restricted(objective.exact_hessian(optimum));
   // Across a bound that presses the exact Hessian need not be definite.
-  if (Eigen::LLT<Matrix>(h).info() != Eigen::Success) h = restricted(objective.hessian(optimum));
   if (Eigen::LLT<Matrix>(h).info() != Eigen::Success)
     h = restricted(objective.gauss_newton(optimum));
   result.density = {optimum.activations(which), optimum.gradient(which), h, prior.lower(which),

@@ -1,6 +1,7 @@
 #pragma once
 // What was measured of one tongue shape, and how far a shape is from it.
 
+#include <Eigen/SparseCore>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,15 +92,23 @@ class Comparison {
  public:
   Comparison(const Model& model, Target target);
   Residuals operator()(const Positions& x, const HeadPose& pose = {}) const;
+  /// sum_k value_k d2 value_k, what Gauss-Newton leaves out of the second derivatives of the misfit,
+  /// over the 3 n nodal positions and then the pose (shift x, shift z, turn): entries of both
+  /// halves of a symmetric matrix, duplicates to be added. `residuals`: those at x and pose.
+  std::vector<Eigen::Triplet<double>> curvature(const Positions& x, const HeadPose& pose,
+                                                const Residuals& residuals) const;
   const Target& target() const { return target_; }
   const TongueLine& line() const { return line_; }
   const Positions& rest() const { return rest_; }
+  /// The nodes that residuals may depend on, rising.
+  const std::vector<int>& nodes() const { return nodes_; }
 
  private:
   Target target_;
   TongueLine line_;
   Positions rest_;
   std::vector<std::array<int, 3>> triangles_;  // of the surface
+  std::vector<int> nodes_;
   Vec2 middle_;
 };
 

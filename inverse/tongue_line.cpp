@@ -33,12 +33,12 @@ TongueLine::TongueLine(const Model& model) : nodes_(model.midsagittal) {
     dense_.row(i) = weights(-overhang + (length() + 2 * overhang) * i / count);
 }
 
-Vector TongueLine::basis(double t, int derivative) const {
+Vector TongueLine::weights(double t, int derivative) const {
   const int n = int(knots_.size());
   const double inside = std::clamp(t, 0.0, length());
   if (t != inside)  // straight continuation
-    return derivative == 0   ? Vector(basis(inside, 0) + (t - inside) * basis(inside, 1))
-           : derivative == 1 ? basis(inside, 1)
+    return derivative == 0   ? Vector(weights(inside, 0) + (t - inside) * weights(inside, 1))
+           : derivative == 1 ? weights(inside, 1)
                              : Vector(Vector::Zero(n));
   int i = int(std::upper_bound(knots_.begin(), knots_.end(), t) - knots_.begin());
   i = std::clamp(i, 1, n - 1);
@@ -57,8 +57,6 @@ Vector TongueLine::basis(double t, int derivative) const {
   return w;
 }
 
-Vector TongueLine::weights(double t) const { return basis(t, 0); }
-Vector TongueLine::slope_weights(double t) const { return basis(t, 1); }
 
 Eigen::Matrix2Xd TongueLine::control(const Positions& x) const {
   Eigen::Matrix2Xd p(2, nodes_.size());
@@ -80,7 +78,7 @@ TongueLine::Closest TongueLine::closest(const Positions& x, const Vec2& q) const
   double t = -overhang + spacing * double(best);
   double left = low, right = high;
   for (int i = 0; i < 40; ++i) {  // Newton on (c - q) . c' = 0, kept inside the bracket
-    const Vec2 c = p * basis(t, 0), d = p * basis(t, 1), dd = p * basis(t, 2);
+    const Vec2 c = p * weights(t, 0), d = p * weights(t, 1), dd = p * weights(t, 2);
     const double g = (c - q).dot(d), h = d.squaredNorm() + (c - q).dot(dd);
     if (g > 0) right = std::min(right, t);
     else left = std::max(left, t);
@@ -90,10 +88,10 @@ TongueLine::Closest TongueLine::closest(const Positions& x, const Vec2& q) const
     t = next;
     if (done) break;
   }
-  const Vec2 tangent = (p * basis(t, 1)).normalized();
+  const Vec2 tangent = (p * weights(t, 1)).normalized();
   // From below the tip over the dorsum to the root the outside lies to the left (x back, z up).
   const Vec2 normal(-tangent[1], tangent[0]);
-  return {t, normal.dot(q - Vec2(p * basis(t, 0))), normal};
+  return {t, normal.dot(q - Vec2(p * weights(t, 0))), normal};
 }
 
 std::vector<Vec2> TongueLine::sample(const Positions& x, int count) const {

@@ -20,10 +20,11 @@ class TongueLine {
   /// Rest chord length from the line's start to the tip node [m].
   double tip_parameter() const { return tip_; }
 
-  /// Weights w_k(t), or those of dc/dt.
-  Vector weights(double t) const;
-  Vector slope_weights(double t) const;
+  /// Weights w_k(t), or those of a derivative: dc/dt (1), d2c/dt2 (2).
+  Vector weights(double t, int derivative = 0) const;
   Vec2 point(const Positions& x, double t) const;
+  /// (x, z) of the nodes, a column each: point(x, t) = control(x) weights(t).
+  Eigen::Matrix2Xd control(const Positions& x) const;
 
   struct Closest {
     double t;         ///< parameter of the closest point [m along the rest chord]
@@ -39,8 +40,6 @@ class TongueLine {
   std::vector<Vec2> sample(const Positions& x, int count) const;
 
  private:
-  Vector basis(double t, int derivative) const;
-  Eigen::Matrix2Xd control(const Positions& x) const;
 
   std::vector<int> nodes_;
   Vector knots_;

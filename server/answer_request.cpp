@@ -10,9 +10,12 @@ namespace genio {
 
 struct RequestWorker::State {
   /// The atlas first: no request should wait for it.
-  explicit State(const Model& m) : workspace(m) { atlas.get(m, Prior{}, true, workspace); }
-  Workspace workspace;
-  AtlasCache atlas;
+  explicit State(const Model& m) : workspace(m) {
+    TongueState* half = workspace.half(Prior{});
+    TongueState& tongue = half ? *half : workspace.whole();
+    tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace);
+  }
+  InferWorkspace workspace;
 };
 
 RequestWorker::RequestWorker(const Model& model) : state_(std::make_unique<State>(model)) {}
@@ -85,8 +88,7 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
     if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;
     options.progress = progress;
     options.cancelled = cancelled;
-    const Answer a = infer_from_starts(model, target, Prior{}, worker.state().workspace,
-                                       worker.state().atlas, options);
+    const Answer a = infer_from_starts(model, target, Prior{}, worker.state().workspace, options);
     reply.status = to_string(a.status);
     reply.message = a.message;
     reply.verdict = to_string(a.verdict);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "forward/equilibrium.hpp"
+#include "forward/mirror.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {
@@ -32,6 +33,37 @@ TEST(HalfModel, TakesTheShapeOfTheWhole) {
               .norm(),
           2e-5);
   }
+}
+
+TEST(Mirror, UnfoldsTheHalfIntoTheWhole) {
+  const Model m = read_model(test::generic_model());
+  const auto mirror = mirror_of(m, {"elasticity.a10"});
+  ASSERT_TRUE(mirror);
+  EXPECT_LT((mirror->whole(mirror->half.rest) - m.rest).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_EQ(mirror->right_half(m.rest), mirror->half.rest);
+  Parameters p = default_parameters(m), q = default_parameters(mirror->half);
+  set_command(m, "GGP", 3, p), set_command(mirror->half, "GGP", 1.5, q);
+  Workspace ws(m), half_ws(mirror->half);
+  const auto both = solve_equilibrium(m, p, m.rest, ws),
+             one = solve_equilibrium(mirror->half, q, mirror->half.rest, half_ws);
+  EXPECT_LT((mirror->whole(one.x) - both.x).cwiseAbs().maxCoeff(), 2e-5);
+}
+
+TEST(Mirror, IsRefusedToATongueWithASideOfItsOwn) {
+  const ModelDescription d = read_description(test::generic_model());
+  ModelDescription weak = d;
+  weak.effects["weak_muscle"] = {{"GGP_L", 0.3}};
+  EXPECT_FALSE(mirror_of(build_model(weak, "weak")));
+  ModelDescription tilted = d;
+  tilted.effects["gravity"] = {{"y", 3.0}};
+  EXPECT_FALSE(mirror_of(build_model(tilted, "tilted")));
+  // Present but for the parameter that is asked about.
+  tilted.effects["gravity"] = {{"y", 0.0}};
+  EXPECT_TRUE(mirror_of(build_model(tilted, "upright")));
+  EXPECT_FALSE(mirror_of(build_model(tilted, "upright"), {"gravity.y"}));
+  ModelDescription bent = d;
+  bent.mesh.nodes[10][0] += 1e-4;
+  EXPECT_FALSE(mirror_of(build_model(bent, "bent")));
 }
 
 TEST(HalfModel, RefusesATongueThatIsNotItsMirrorImage) {

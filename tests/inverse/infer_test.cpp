@@ -32,8 +32,8 @@ TEST_F(Infer, GradientIsTheDerivativeOfTheObjective) {
   const Vector gradient = objective.derivatives(z)->gradient;
   for (Eigen::Index k = 0; k < z.size(); ++k) {
     const double h = 1e-4;
-    const double up = objective.value(z + h * Vector::Unit(z.size(), k))->value;
-    const double down = objective.value(z - h * Vector::Unit(z.size(), k))->value;
+    const double up = *objective.value(z + h * Vector::Unit(z.size(), k));
+    const double down = *objective.value(z - h * Vector::Unit(z.size(), k));
     EXPECT_NEAR((up - down) / (2 * h), gradient[k], 1e-4 * gradient.norm())
         << objective.commands()[size_t(k)].name;
   }

@@ -9,10 +9,11 @@ namespace {
 
 class MultiStart : public test::PulledTongue {
  protected:
-  AtlasCache cache;
+  InferWorkspace all{m};
 };
 
 TEST_F(MultiStart, AtlasHoldsEquilibriaOfItsCommands) {
+  AtlasCache cache;
   const Atlas& atlas = cache.get(m, Prior{}, true, ws);
   EXPECT_GT(atlas.entries.size(), 25u);
   const auto commands = unknowns(m, Prior{}, true);
@@ -32,7 +33,7 @@ TEST_F(MultiStart, AtlasHoldsEquilibriaOfItsCommands) {
 // From rest the descent once ended with IL at its maximum instead of SL curling the tip.
 TEST_F(MultiStart, ACurledTipIsNotTakenForItsOpposite) {
   const Target t = pulled({{"SL", 5.2}, {"HG", 1.6}, {"GGP", 3.3}});
-  const Answer a = infer_from_starts(m, t, Prior{}, ws, cache);
+  const Answer a = infer_from_starts(m, t, Prior{}, all);
   ASSERT_EQ(a.status, InferStatus::converged) << a.message;
   EXPECT_EQ(a.verdict, Verdict::explained) << a.message;
   EXPECT_LT(1e3 * a.rms, 0.2);
@@ -45,9 +46,35 @@ TEST_F(MultiStart, ACurledTipIsNotTakenForItsOpposite) {
   }
 }
 
+TEST_F(MultiStart, HalfATongueAnswersAsTheWhole) {
+  const Target t = pulled({{"GGP", 3}, {"TRANS", 2}, {"HG", 1}});
+  ASSERT_TRUE(all.half(Prior{}));
+  const Answer half = infer_from_starts(m, t, Prior{}, all, {}, {1});
+  AtlasCache cache;
+  const Atlas& atlas = cache.get(m, Prior{}, true, ws);
+  InferOptions from;
+  const auto* start = nearest(atlas, Comparison(m, t), unknowns(m, Prior{}, true),
+                              prior_terms(Prior{}, unknowns(m, Prior{}, true)))
+                          .front();
+  from.start = start->unknowns, from.start_shape = start->shape;
+  const Answer whole = infer(m, t, Prior{}, ws, from);
+  ASSERT_EQ(whole.status, InferStatus::converged) << whole.message;
+  ASSERT_EQ(half.commands.size(), whole.commands.size());
+  for (size_t i = 0; i < half.commands.size(); ++i) {
+    const auto &a = half.commands[i], &b = whole.commands[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_NEAR(a.max_force, b.max_force, 1e-9);
+    EXPECT_NEAR(a.force, b.force, 0.05 * b.sd + 1e-3 * b.max_force) << a.name;
+    EXPECT_NEAR(a.sd, b.sd, 0.05 * b.sd) << a.name;
+    EXPECT_NEAR(a.high, b.high, 0.1 * b.sd) << a.name;
+  }
+  EXPECT_LT((half.shape - whole.shape).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_EQ(half.shape_by_unknown.rows(), m.rest.size());
+}
+
 TEST_F(MultiStart, WeightsOfAllOptimaAddUp) {
   const Target t = pulled({{"GGP", 3}, {"TRANS", 2}});
-  const Answer a = infer_from_starts(m, t, Prior{}, ws, cache, {}, {4});
+  const Answer a = infer_from_starts(m, t, Prior{}, all, {}, {4});
   ASSERT_EQ(a.status, InferStatus::converged) << a.message;
   double sum = a.weight;
   for (const auto& other : a.alternatives) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "inverse/curvature.hpp"
 #include "inverse/infer.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
@@ -66,6 +67,36 @@ TEST_F(TargetTest, ResidualsHaveTheirOwnDerivatives) {
       const Vector q = (compare(m.rest, up).values - compare(m.rest, down).values) / (2 * e);
       EXPECT_LT((q - r.pose.col(k)).norm(), 1e-4 * q.norm()) << dof << " " << k;
     }
+  }
+}
+
+TEST_F(TargetTest, CurvatureIsWhatGaussNewtonLeavesOut) {
+  Target t = mixed();
+  // Past an edge and past a corner of the surface.
+  t.surface.push_back({node_position(m.rest, m.landmarks.tip) + Vec3(-4e-3, 1e-3, 0), 1e-3});
+  for (const double dof : {0.0, 4.0}) {
+    t.outlier_dof = dof;
+    const Comparison compare(m, t);
+    const HeadPose pose{Vec2(5e-4, -3e-4), 0.02};
+    const Residuals r = compare(m.rest, pose);
+    Matrix along = Matrix::Random(m.rest.size(), 4), turn(3, 4);
+    turn << 1, 0, 0, 0.3, 0, 1, 0, 0.2, 0, 0, 30, 10;
+    const auto gradient = [&](const Vector& d) -> Vector {
+      const Vec3 p = turn * d;
+      const Residuals s =
+          compare(m.rest + along * d, {pose.shift + p.head<2>(), pose.turn + p[2]});
+      return (residual_jacobian(s, along) + s.pose * turn).transpose() * s.values;
+    };
+    const Matrix j = residual_jacobian(r, along) + r.pose * turn;
+    const Matrix exact =
+        target_curvature(compare, m.rest, pose, r, along, turn) + j.transpose() * j;
+    const double h = 1e-7;
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      const Vector d = h * Vector::Unit(4, k);
+      const Vector quotient = (gradient(d) - gradient(-d)) / (2 * h);
+      EXPECT_LT((quotient - exact.col(k)).norm(), 1e-4 * exact.col(k).norm()) << dof << " " << k;
+    }
+    EXPECT_GT((exact - j.transpose() * j).norm(), 1e-3 * exact.norm());
   }
 }
 
