@@ -44,8 +44,7 @@ Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& t
 
 Json ultrasound(const Model& m, const std::string& contours, const std::string& palate,
                 const Progress& progress) {
-  const ContourFile file = read_contours(contours);
-  const Registration r = register_file(m, file, palate);
+  const auto [file, r] = register_file(m, read_contours(contours), palate);
   InferWorkspace ws(m);
   Json frames = Json::array();
   std::vector<double> rms, seconds;

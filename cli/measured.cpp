@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -9,6 +10,9 @@
 
 namespace genio::cli {
 namespace {
+
+constexpr double poor_fit = 3e-3;   // of the palate [m]
+constexpr double poor_scale = 0.4;  // logarithm
 
 /// "7" or "3-9"; empty means all.
 std::pair<int, int> parse_frames(const std::string& text) {
@@ -23,36 +27,77 @@ std::pair<int, int> parse_frames(const std::string& text) {
   return {a, b};
 }
 
-Similarity registered_by(const Model& model, const ContourFile& file, const MeasuredOptions& o) {
+/// "5=tip" to what the reader takes.
+std::map<std::string, std::string> parsed_sensors(const std::vector<std::string>& sensors) {
+  std::map<std::string, std::string> result;
+  for (const std::string& s : sensors) {
+    const auto equals = s.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == s.size())
+      throw InputError(fmt::format("--sensors {}: expected SENSOR=PLACE, as in 5=tip", s));
+    result[s.substr(0, equals)] = s.substr(equals + 1);
+  }
+  return result;
+}
+
+RegisteredFile registered_by(const Model& model, ContourFile file, const MeasuredOptions& o) {
   if (o.palate.empty())
     throw InputError(fmt::format(
-        "{}: is in the device's own frame; give the same session's palate trace with --palate",
+        "{}: is in the device's own frame; give the same session's palate trace with --palate, or "
+        "say --registered where it is in the model's",
         o.target));
-  const auto r = register_file(model, file, o.palate, o.format);
-  fmt::print(stderr,
-             "registered by the palate: scale {:.3f}, tilt {:.1f} degrees, palate RMS {:.2f} mm\n",
-             r.transform.scale, r.transform.angle * 180 / std::numbers::pi, 1e3 * r.palate_rms);
-  return r.transform;
+  ReadOptions palate = o.read;
+  palate.sensors.clear();
+  if (!o.palate_sensor.empty()) palate.sensors[o.palate_sensor] = "palate";
+  palate.format = o.palate_sensor.empty() && o.read.format == "ema" ? "auto" : o.read.format;
+  RegisteredFile result = register_file(model, std::move(file), o.palate, palate);
+  const Registration& r = result.registration;
+  result.file.remarks.push_back(
+      fmt::format("registered by the palate: scale {:.3f}, tilt {:.1f} degrees, palate RMS {:.2f} mm",
+                  r.transform.scale, r.transform.angle * 180 / std::numbers::pi,
+                  1e3 * r.palate_rms));
+  if (r.palate_rms > poor_fit || std::abs(std::log(r.transform.scale)) > poor_scale)
+    result.file.remarks.push_back(
+        "THE REGISTRATION IS POOR: is the palate of the same session, units and axes as said?");
+  return result;
 }
 
 }  // namespace
 
 void add_measured_options(CLI::App& app, MeasuredOptions& o) {
   app.add_option("--target", o.target, "Contour file");
-  app.add_option("--format", o.format, "auto, csv or aaa");
+  app.add_option("--format", o.read.format,
+                 "auto, csv, aaa, getcontours, edgetrak, ema or surface");
+  app.add_option("--units", o.read.units, "mm, cm, m, um or px, where the file does not say");
+  app.add_option("--mm-per-px", o.read.mm_per_px, "Size of a pixel")->check(CLI::PositiveNumber);
+  app.add_option("--facing", o.read.facing, "Where the face looks in the file: left or right");
+  app.add_option("--y-grows", o.read.up, "up, or down as in images");
+  app.add_option("--sensors", o.sensors, "EMA: what each is stuck to, 3=dorsum,5=tip")
+      ->delimiter(',');
+  app.add_option("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say")
+      ->check(CLI::PositiveNumber);
   app.add_option("--palate", o.palate, "Palate trace of the same session");
+  app.add_option("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there");
+  app.add_flag("--registered", o.registered, "The file is in the model's frame already");
   app.add_option("--frames", o.frames, "A-B, counted from 1");
-  app.add_option("--noise-mm", o.noise_mm, "Measurement noise (default 0.5 for CSV, 1.5 for AAA)");
+  app.add_option("--noise-mm", o.noise_mm, "Measurement noise (default 0.5 for CSV and EMA, 1 for scans, 1.5 for ultrasound)");
 }
 
 Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model) {
   if (o.target.empty()) throw InputError("--target: a contour file is needed");
   if (!(o.noise_mm >= 0)) throw InputError("--noise-mm: must be above 0");
   const auto [first, last] = parse_frames(o.frames);
-  const ContourFile file = read_contours(o.target, o.format);
+  ReadOptions read = o.read;
+  read.sensors = parsed_sensors(o.sensors);
+  ContourFile file = read_contours(o.target, read);
   Measured m;
   std::optional<Similarity> transform;
-  if (!file.model_frame) transform = registered_by(model(), file, o);
+  if (!file.model_frame && !o.registered) {
+    RegisteredFile r = registered_by(model(), std::move(file), o);
+    file = std::move(r.file), transform = r.registration.transform;
+  } else if (!file.facing_known) {
+    throw InputError(o.target + ": does not say which way the face looks; give --facing");
+  }
+  for (const std::string& remark : file.remarks) fmt::print(stderr, "{}: {}\n", o.target, remark);
   m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : default_noise(file.format);
   for (const ContourFrame& frame : file.frames)
     if (frame.number >= first && frame.number <= last)

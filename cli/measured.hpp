@@ -13,11 +13,15 @@
 namespace genio::cli {
 
 struct MeasuredOptions {
-  std::string target, format = "auto", palate, frames;
+  std::string target, palate, palate_sensor, frames;
+  std::vector<std::string> sensors;  ///< "5=tip"
+  ReadOptions read;
+  bool registered = false;  ///< already in the model's frame
   double noise_mm = 0;
 };
 
-/// Declares --target, --format, --palate, --frames and --noise-mm.
+/// Declares --target, --frames, --palate, --noise-mm, and what files do not say: --format, --units,
+/// --mm-per-px, --facing, --y-grows, --sensors, --palate-sensor, --rate-hz, --registered.
 void add_measured_options(CLI::App& app, MeasuredOptions& o);
 
 struct Measured {

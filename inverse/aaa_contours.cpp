@@ -10,7 +10,7 @@
 namespace genio {
 namespace {
 
-constexpr double longest_gap = 0.012;  // between neighbouring knots of one contour [m]
+constexpr double longest_gap = 12;  // between neighbouring knots of one contour [mm]
 
 /// Where things stand in a row.
 struct Layout {
@@ -66,9 +66,10 @@ std::vector<ContourPoint> longest_run(const std::vector<ContourPoint>& points) {
 
 }  // namespace
 
-ContourFile read_aaa_contours(const std::string& path) {
+RawContours read_aaa_contours(const std::string& path) {
   TableLines lines(path);
-  ContourFile file;
+  RawContours raw{{}, {"mm", "right", "up"}};
+  ContourFile& file = raw.file;
   file.format = ContourFormat::aaa;
   file.model_frame = false;
   Layout layout;
@@ -101,8 +102,7 @@ ContourFile read_aaa_contours(const std::string& path) {
         lines.fail(
             fmt::format("knot {}: '{}', '{}'; expected two finite numbers or '*'", k, tx, ty));
       ContourPoint p;
-      p.position = 1e-3 * Vec3(-x, 0, y);
-      p.position[1] = std::numeric_limits<double>::quiet_NaN();
+      p.position = {x, std::numeric_limits<double>::quiet_NaN(), y};
       p.kind = "curve";
       frame.points.push_back(std::move(p));
     }
@@ -112,7 +112,7 @@ ContourFile read_aaa_contours(const std::string& path) {
     file.frames.push_back(std::move(frame));
   }
   if (file.frames.empty()) lines.fail("the file has no data row");
-  return file;
+  return raw;
 }
 
 }  // namespace genio

@@ -57,6 +57,9 @@ ContourFrame registered(const Model& model, const ContourFrame& frame,
     const Vec2 moved = transform(Vec2(p.position[0], p.position[2]));
     p.position[0] = moved[0], p.position[2] = moved[1];
   }
+  if (std::any_of(points.begin(), points.end(),
+                  [](const ContourPoint& p) { return p.kind != "curve"; }))
+    return result;
   // The innermost bad point of each outer third decides: what lies beyond it is no better.
   const size_t size = points.size();
   size_t first = 0, last = size;
@@ -103,11 +106,28 @@ Target make_target(const Model& model, const ContourFrame& frame, double noise) 
   return target;
 }
 
-Registration register_file(const Model& model, const ContourFile& file,
-                           const std::string& palate_path, const std::string& format) {
-  const auto palate = midsagittal_points(read_contours(palate_path, format));
+RegisteredFile register_file(const Model& model, ContourFile file, const std::string& palate_path,
+                             const ReadOptions& palate_options) {
+  const ContourFile palate_file = read_contours(palate_path, palate_options);
+  std::vector<Vec2> palate;
+  for (const auto& line : midsagittal_points(palate_file)) {
+    palate.insert(palate.end(), line.begin(), line.end());
+    if (palate_file.format != ContourFormat::ema) break;  // a trace is one frame, a sweep all
+  }
   if (palate.empty()) throw InputError(palate_path + ": no palate point has a value");
-  return register_by_palate(model, palate.front(), midsagittal_points(file));
+  Registration as_is = register_by_palate(model, palate, midsagittal_points(file));
+  if (file.facing_known) return {std::move(file), as_is};
+  for (Vec2& q : palate) q[0] = -q[0];
+  ContourFile turned = mirrored(file);
+  const Registration other = register_by_palate(model, palate, midsagittal_points(turned));
+  const bool left = as_is.cost <= other.cost;
+  const auto said = fmt::format("face looks {} (fits the palate better: cost {:.0f}, not {:.0f})",
+                                left ? "left" : "right", std::min(as_is.cost, other.cost),
+                                std::max(as_is.cost, other.cost));
+  RegisteredFile result{std::move(left ? file : turned), left ? as_is : other};
+  result.file.facing_known = true;
+  result.file.remarks.push_back(said);
+  return result;
 }
 
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {
@@ -115,14 +135,24 @@ std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {
   for (const auto& frame : file.frames) {
     std::vector<Vec2> line;
     for (const auto& p : frame.points)
-      if (p.kind == "curve") line.emplace_back(p.position[0], p.position[2]);
+      if (p.kind != "surface" && p.kind != "volume")
+        line.emplace_back(p.position[0], p.position[2]);
     if (!line.empty()) result.push_back(std::move(line));
   }
   return result;
 }
 
 double default_noise(ContourFormat format) {
-  return format == ContourFormat::aaa ? 1.5e-3 : 0.5e-3;
+  switch (format) {
+    case ContourFormat::aaa:
+    case ContourFormat::getcontours:
+    case ContourFormat::edgetrak:
+      return 1.5e-3;
+    case ContourFormat::surface:
+      return 1e-3;
+    default:
+      return 0.5e-3;
+  }
 }
 
 }  // namespace genio

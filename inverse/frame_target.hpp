@@ -6,8 +6,8 @@
 namespace genio {
 
 /// The frame in the model's frame. Leaves out ends of the contour that run through jaw or palate:
-/// where the tongue's edge fades, trackers follow something else. Only whole ends, never points
-/// from the middle; says so in the frame's note.
+/// where the tongue's edge fades, trackers follow something else. Only whole ends of curves, never
+/// points from the middle; says so in the frame's note.
 ContourFrame registered(const Model& model, const ContourFrame& frame, const Similarity& transform);
 
 /// Target of one frame, which is in the model's frame: points without a noise of their own get
@@ -16,15 +16,25 @@ ContourFrame registered(const Model& model, const ContourFrame& frame, const Sim
 /// Throws InputError naming the point.
 Target make_target(const Model& model, const ContourFrame& frame, double noise);
 
-/// Registers a file in a device's own axes by the palate trace of the same session, read from
-/// `palate_path`. Throws InputError naming that file when it has no palate point.
-Registration register_file(const Model& model, const ContourFile& file,
-                           const std::string& palate_path, const std::string& format = "auto");
+/// A file laid into the model's frame.
+struct RegisteredFile {
+  ContourFile file;  ///< its points still in the device's frame
+  Registration registration;
+};
 
-/// The curve points of all frames, (x, z) [m], in the file's frame.
+/// Registers a file in a device's own axes by the palate trace of the same session, read from
+/// `palate_path`; a sweep of a sensor along the palate is read whole, options.sensors naming it.
+/// Where nobody knows which way the face looks, the way that fits better. Throws InputError naming
+/// that file when it has no palate point.
+RegisteredFile register_file(const Model& model, ContourFile file, const std::string& palate_path,
+                             const ReadOptions& palate_options = {});
+
+/// The points of all frames on the midsagittal line, curves and marked points, (x, z) [m], in the
+/// file's frame.
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);
 
-/// What one assumes of a format when nobody says [m]: 0.5 mm for CSV, 1.5 mm for ultrasound.
+/// What one assumes of a format when nobody says [m]: 0.5 mm for CSV and EMA, 1 mm for scans, 1.5 mm
+/// for ultrasound.
 double default_noise(ContourFormat format);
 
 }  // namespace genio

@@ -10,6 +10,7 @@ namespace genio {
 namespace {
 
 constexpr double palate_sd = 2e-3, tongue_sd = 5e-3;  // [m]
+constexpr size_t most_trace = 42;  // independent points of a palate trace
 constexpr double scale_sd = 0.06, tilt_sd = 20 * std::numbers::pi / 180;
 
 struct Polyline {
@@ -55,6 +56,8 @@ struct Problem {
     const Similarity s = transform(v);
     double sum = 0, misfit = 0;
     for (const Vec2& q : trace) sum += palate.offset(s(q)).squaredNorm() / (palate_sd * palate_sd);
+    // A sweep of a sensor says no more than a trace.
+    if (trace.size() > most_trace) sum *= double(most_trace) / double(trace.size());
     for (const Vec2& q : contours)
       misfit += tongue.offset(s(q)).squaredNorm() / (tongue_sd * tongue_sd);
     // All contours together weigh as much as 60 independent points.
@@ -107,6 +110,7 @@ Registration register_by_palate(const Model& model, const std::vector<Vec2>& pal
   }
   Registration result;
   result.transform = problem.transform(best_point);
+  result.cost = best;
   double sum = 0;
   for (const Vec2& q : palate_trace)
     sum += problem.palate.offset(result.transform(q)).squaredNorm();

@@ -18,6 +18,7 @@ struct Similarity {
 struct Registration {
   Similarity transform;
   double palate_rms = 0;  ///< of the palate trace from the model's palate, after fitting [m]
+  double cost = 0;        ///< what was minimised: squares in units of their standard deviations
 };
 
 /// Rigid motion and scale that lay the palate trace onto the model's midsagittal palate. Along a
