@@ -127,8 +127,14 @@ bool Simulation::advance(const MotionState& from, double dt, MotionState& to, Tr
 Instant Simulation::instant(const MotionState& s) const {
   const Positions x = model_.rest + model_.dofs.expand(s.u);
   const Vector v = model_.dofs.expand(s.v);
-  return {s.time, x, v, 0.5 * v.dot(multiply(mass_, v)), energy(model_, x, commands_.at(s.time)),
-          0,      0};
+  return {s.time,
+          x,
+          v,
+          model_.dofs.expand(s.a),
+          0.5 * v.dot(multiply(mass_, v)),
+          energy(model_, x, commands_.at(s.time)),
+          0,
+          0};
 }
 
 /// What viscous forces took, by their value in the middle of the step, and what changing parameters

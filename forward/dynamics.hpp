@@ -36,6 +36,7 @@ struct Instant {
   double time;                   ///< [s]
   Positions x;                   ///< [m]
   Vector velocity;               ///< [m/s]
+  Vector acceleration;           ///< [m/s^2]
   double kinetic, potential;     ///< [J]; the potential of everything that has one
   double dissipated, work_done;  ///< since the start [J]: by viscous forces, by changing parameters
 };

@@ -193,9 +193,13 @@ NodeMatrix mass_matrix(const Model& model, const Parameters& p) {
   return mass;
 }
 
-Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
-                         std::span<const int> parameters) {
-  Matrix result = Matrix::Zero(x.size(), Eigen::Index(parameters.size()));
+namespace {
+
+/// add(effect, its values, its parameter, column) for every effect that reads one of `parameters`.
+template <class Add>
+Matrix sum_of_derivatives(const Model& model, Eigen::Index size, const Parameters& p,
+                          std::span<const int> parameters, Add add) {
+  Matrix result = Matrix::Zero(size, Eigen::Index(parameters.size()));
   Forces column;
   for (size_t e = 0; e < model.effects.size(); ++e) {
     const auto& inputs = model.inputs[e];
@@ -203,12 +207,40 @@ Matrix force_derivatives(const Model& model, const Positions& x, const Parameter
     for (size_t c = 0; c < parameters.size(); ++c)
       for (size_t k = 0; k < inputs.size(); ++k) {
         if (inputs[k] != parameters[c]) continue;
-        column = Forces::Zero(x.size());
-        model.effects[e]->add_force_derivative(x, values, int(k), column);
+        column = Forces::Zero(size);
+        add(*model.effects[e], values, int(k), column);
         result.col(Eigen::Index(c)) += column;
       }
   }
   return result;
+}
+
+}  // namespace
+
+Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
+                         std::span<const int> parameters) {
+  return sum_of_derivatives(model, x.size(), p, parameters,
+                            [&](const Effect& e, EffectParameters values, int k, Forces& df) {
+                              e.add_force_derivative(x, values, k, df);
+                            });
+}
+
+Matrix motion_force_derivatives(const Model& model, const Positions& x, const Vector& v,
+                                const Parameters& p, std::span<const int> parameters) {
+  return sum_of_derivatives(model, x.size(), p, parameters,
+                            [&](const Effect& e, EffectParameters values, int k, Forces& df) {
+                              e.add_force_derivative(x, values, k, df);
+                              e.add_viscous_force_derivative(x, v, values, k, df);
+                            });
+}
+
+Matrix viscous_slope(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
+                     const Matrix& along, Stiffness& scratch) {
+  Matrix df = Matrix::Zero(along.rows(), along.cols());
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    model.effects[e]->add_viscous_force_slope(x, v, effect_parameters(model, p, int(e)), along,
+                                              scratch, df);
+  return df;
 }
 
 double max_penetration(const Model& model, const Positions& x, const Parameters& p) {

@@ -117,6 +117,14 @@ NodeMatrix mass_matrix(const Model& model, const Parameters& p);
 Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
                          std::span<const int> parameters);
 
+/// The same of the forces in motion, those of the potential and of the dissipation together.
+Matrix motion_force_derivatives(const Model& model, const Positions& x, const Vector& v,
+                                const Parameters& p, std::span<const int> parameters);
+/// The derivative of the viscous forces along each column of `along`, nodal displacements at fixed
+/// v. `scratch` is overwritten.
+Matrix viscous_slope(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
+                     const Matrix& along, Stiffness& scratch);
+
 /// Deepest penetration of any surface [m].
 double max_penetration(const Model& model, const Positions& x, const Parameters& p);
 

@@ -72,4 +72,22 @@ Vector Stiffness::multiply(const Vector& x) const {
   return y;
 }
 
+Matrix Stiffness::multiply_columns(const Matrix& columns) const {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Block = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
+  const Rows x = columns;
+  Rows y = Rows::Zero(x.rows(), x.cols());
+  for (int a = 0; a < pattern_->nodes(); ++a)
+    for (int s = pattern_->row_start(a); s < pattern_->row_start(a + 1); ++s) {
+      const int b = pattern_->column(s);
+      const Block k(block(s));
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+          y.row(3 * a + i) += k(i, j) * x.row(3 * b + j);
+          if (b != a) y.row(3 * b + j) += k(i, j) * x.row(3 * a + i);
+        }
+    }
+  return y;
+}
+
 }  // namespace genio

@@ -52,6 +52,8 @@ class Stiffness {
   void add(const Stiffness& other, double scale);
   /// y = K x over all 3 n unknowns.
   Vector multiply(const Vector& x) const;
+  /// The same for every column, at once.
+  Matrix multiply_columns(const Matrix& x) const;
 
  private:
   const BlockPattern* pattern_;

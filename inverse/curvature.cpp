@@ -11,9 +11,7 @@ constexpr double nothing = 1e-9;       // relative
 Matrix products(const Model& model, const Positions& x, const Parameters& p, const Matrix& columns,
                 Stiffness& k) {
   stiffness(model, x, p, k);
-  Matrix result(columns.rows(), columns.cols());
-  for (Eigen::Index c = 0; c < columns.cols(); ++c) result.col(c) = k.multiply(columns.col(c));
-  return result;
+  return k.multiply_columns(columns);
 }
 
 /// lambda . dP_j/dz_i; zero, and cheap, where forces are linear in the unknowns.

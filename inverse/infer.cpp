@@ -63,9 +63,9 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
   if (!warm || options.rough_start) {
     // From rest the first steps tend to set muscles against each other far beyond what the shape
     // needs. Effort that counts more keeps them near; its optimum is a start for the real one.
-    objective.set_prior(with_effort(prior, 0.25));
+    objective.set_prior(prior_terms(with_effort(prior, 0.25), objective.commands()));
     descent({15, 1e-2, {}});
-    objective.set_prior(prior);
+    objective.set_prior(prior_terms(prior, objective.commands()));
   }
   const DescentResult optimum = descent({options.max_iterations, options.tolerance, {}});
   answer.status = optimum.converged     ? InferStatus::converged
@@ -76,12 +76,7 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
     const auto* point = options.finite_differences ? objective.at(start)
                                                    : objective.derivatives(start);
     if (point) {
-      answer.activations = point->activations;
-      answer.shape = point->equilibrium.x;
-      answer.shape_by_unknown = point->positions;
-      answer.residuals = point->residuals;
-      answer.rms = point->residuals.rms;
-      answer.max = point->residuals.max;
+      tell(*point, answer);
       if (!options.finite_differences)
         summarise_posterior(objective, *point, comparison, options.model_error, answer);
     } else {

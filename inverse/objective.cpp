@@ -54,8 +54,8 @@ void Objective::weigh(ObjectivePoint& p) const {
     p.gradient = p.jacobian.transpose() * p.residuals.values + prior_.gradient(p.activations);
 }
 
-void Objective::set_prior(const Prior& prior) {
-  prior_ = prior_terms(prior, commands_);
+void Objective::set_prior(PriorTerms prior) {
+  prior_ = std::move(prior);
   if (have_last_) weigh(last_);
   if (have_anchor_) weigh(anchor_);
 }
@@ -156,26 +156,36 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
   return keep(std::move(point));
 }
 
-std::unique_ptr<LocalProblem> Objective::local(const Vector& activations) {
+std::optional<LocalShape> Objective::local_shape(const Vector& activations, int first) {
   const ObjectivePoint* point = nullptr;
   ObjectivePoint start;
   if (!have_anchor_ && known_start(activations, start)) {
-    start = *at(activations);
+    const auto* here = at(activations);
+    if (!here) return {};
+    start = *here;
     set_positions(start, options_.start_by_unknown);
     point = keep(std::move(start));
   } else {
     point = derivatives(activations);
   }
-  if (!point) return nullptr;
-  std::vector<int> all(commands_.size());
-  std::iota(all.begin(), all.end(), 0);
+  if (!point) return {};
+  std::vector<int> which(commands_.size());
+  std::iota(which.begin(), which.end(), first);
   LocalShape shape(comparison_, point->equilibrium.x, point->positions,
-                   head_pose(commands_, activations), pose_derivative(commands_), all);
+                   head_pose(commands_, activations), pose_derivative(commands_),
+                   std::move(which));
   if (point->adjoint.size() > 0 && curvature_counts(*point))
     shape.curvature = point->mechanical, shape.target_curvature = point->target;
-  return std::make_unique<LocalProblem>(std::vector{std::move(shape)},
-                                        QuadraticTerm{prior_.rows.sparseView(), prior_.values},
-                                        activations);
+  return shape;
+}
+
+std::unique_ptr<LocalProblem> Objective::local(const Vector& activations) {
+  auto shape = local_shape(activations);
+  if (!shape) return nullptr;
+  std::vector<LocalShape> shapes;
+  shapes.push_back(std::move(*shape));
+  return std::make_unique<LocalProblem>(
+      std::move(shapes), QuadraticTerm{prior_.rows.sparseView(), prior_.values}, activations);
 }
 
 bool Objective::curvature_counts(const ObjectivePoint& point) const {
@@ -195,6 +205,15 @@ double Objective::promised_gain(const ObjectivePoint& point, const Matrix& h) co
   const Eigen::LLT<Matrix> factor(Matrix(h(free, free)));
   return factor.info() == Eigen::Success ? 0.5 * slope.dot(factor.solve(slope))
                                          : std::numeric_limits<double>::infinity();
+}
+
+void tell(const ObjectivePoint& point, Answer& answer) {
+  answer.activations = point.activations;
+  answer.shape = point.equilibrium.x;
+  answer.shape_by_unknown = point.positions;
+  answer.residuals = point.residuals;
+  answer.rms = point.residuals.rms;
+  answer.max = point.residuals.max;
 }
 
 Vector Objective::difference_gradient(const ObjectivePoint& point) {

@@ -22,6 +22,9 @@ struct ObjectivePoint {
   mutable Matrix mechanical, target;  ///< parts of the curvature, once asked for
 };
 
+/// Puts the point into an answer; forces and verdict are summarise_posterior's.
+void tell(const ObjectivePoint& point, Answer& answer);
+
 /// Evaluates and remembers. The last point whose sensitivities are known predicts the shape of the
 /// next, so that equilibrium is found in a few cheap steps.
 class Objective final : public MisfitProblem {
@@ -30,7 +33,7 @@ class Objective final : public MisfitProblem {
             const InferOptions& options, Workspace& ws);
 
   /// Changes the prior; what is remembered stays valid but for its value and gradient.
-  void set_prior(const Prior& prior);
+  void set_prior(PriorTerms prior);
   const PriorTerms& prior() const { return prior_; }
   const std::vector<Command>& commands() const { return commands_; }
 
@@ -44,6 +47,9 @@ class Objective final : public MisfitProblem {
   Matrix exact_hessian(const ObjectivePoint& point) const;
   /// By an equilibrium an unknown, to compare with; empty where one is not found.
   Vector difference_gradient(const ObjectivePoint& point);
+
+  /// Its shape near a point, its unknowns numbered from `first` on; empty where there is none.
+  std::optional<LocalShape> local_shape(const Vector& activations, int first = 0);
 
   const Vector& lower() const override { return prior_.lower; }
   const Vector& upper() const override { return prior_.upper; }

@@ -140,6 +140,21 @@ void Contact::add_damping(const Positions& x, const Vector&, EffectParameters p,
   });
 }
 
+void Contact::add_viscous_force_slope(const Positions& x, const Vector& v, EffectParameters p,
+                                      const Matrix& along, Stiffness&, Matrix& df) const {
+  if (p[1] == 0) return;
+  each_touching(x, p, [&](const ContactNode& c, const Surface& surface, double depth) {
+    const auto s = surface.sample(node_position(x, c.node));
+    const SoftSpring spring(depth, soft_depth);
+    const Vec3 &n = s.gradient, speed = node_position(v, c.node);
+    const Mat3 slope = -spring.curvature * n.dot(speed) * n * n.transpose() +
+                       spring.slope * (n * (s.hessian * speed).transpose() +
+                                       n.dot(speed) * s.hessian);
+    df.middleRows<3>(3 * c.node) -=
+        p[0] * p[1] * c.area * slope * along.middleRows<3>(3 * c.node);
+  });
+}
+
 void Contact::add_viscous_force_derivative(const Positions& x, const Vector& v, EffectParameters p,
                                            int k, Forces& df) const {
   if (k <= 1) {  // linear in stiffness and in damping

@@ -51,6 +51,8 @@ class Contact final : public Effect {
                          Forces& f) const override;
   void add_damping(const Positions& x, const Vector& v, EffectParameters p,
                    Stiffness& c) const override;
+  void add_viscous_force_slope(const Positions& x, const Vector& v, EffectParameters p,
+                               const Matrix& along, Stiffness& scratch, Matrix& df) const override;
   void add_viscous_force_derivative(const Positions& x, const Vector& v, EffectParameters p, int k,
                                     Forces& df) const override;
   /// Signed distance of a point from the surface as it lies at rest, positive on the tongue's side

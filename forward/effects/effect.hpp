@@ -84,6 +84,11 @@ class Effect {
   /// Adds d2R/dv2 [N s/m].
   virtual void add_damping(const Positions& /*x*/, const Vector& /*v*/, EffectParameters /*p*/,
                            Stiffness& /*c*/) const {}
+  /// Adds to each column of `df` the derivative of the viscous force along the same column of
+  /// `along`, nodal displacements at fixed v [N per unit]. `scratch` may be overwritten. Here by
+  /// differences.
+  virtual void add_viscous_force_slope(const Positions& x, const Vector& v, EffectParameters p,
+                                       const Matrix& along, Stiffness& scratch, Matrix& df) const;
   /// add_force and add_viscous_force at once, for effects that can share work between them.
   virtual void add_forces_in_motion(const Positions& x, const Vector& v, EffectParameters p,
                                     Forces& f, Forces& viscous) const {

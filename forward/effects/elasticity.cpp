@@ -45,6 +45,20 @@ void Elasticity::add_damping(const Positions& x, const Vector&, EffectParameters
   if (beta(p) != 0) add_stiffness(x, scaled(p, beta(p)), c);
 }
 
+/// -beta (dK along dx) v = -beta (dK along v) dx, as third derivatives of an energy are symmetric.
+void Elasticity::add_viscous_force_slope(const Positions& x, const Vector& v, EffectParameters p,
+                                         const Matrix& along, Stiffness& scratch,
+                                         Matrix& df) const {
+  constexpr double longest = 1e-6;  // displacement of a node [m]
+  const double size = v.cwiseAbs().maxCoeff();
+  if (beta(p) == 0 || size == 0) return;
+  const double h = longest / size;
+  scratch.set_zero();
+  add_stiffness(x + h * v, scaled(p, -beta(p) / (2 * h)), scratch);
+  add_stiffness(x - h * v, scaled(p, beta(p) / (2 * h)), scratch);
+  df += scratch.multiply_columns(along);
+}
+
 void Elasticity::add_viscous_force_derivative(const Positions& x, const Vector& v,
                                               EffectParameters p, int k, Forces& df) const {
   if (!viscous_) return;

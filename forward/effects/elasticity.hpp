@@ -28,6 +28,8 @@ class Elasticity final : public TissueEffect {
                             Forces& viscous) const override;
   void add_damping(const Positions& x, const Vector& v, EffectParameters p,
                    Stiffness& c) const override;
+  void add_viscous_force_slope(const Positions& x, const Vector& v, EffectParameters p,
+                               const Matrix& along, Stiffness& scratch, Matrix& df) const override;
   void add_viscous_force_derivative(const Positions& x, const Vector& v, EffectParameters p, int k,
                                     Forces& df) const override;
   /// No Gauss point loses more than three quarters of its volume in one step.

@@ -25,6 +25,8 @@ class Viscosity final : public Effect {
                          Forces& f) const override;
   void add_damping(const Positions& x, const Vector& v, EffectParameters p,
                    Stiffness& c) const override;
+  void add_viscous_force_slope(const Positions&, const Vector&, EffectParameters, const Matrix&,
+                               Stiffness&, Matrix&) const override {}  // the same in every shape
   void add_viscous_force_derivative(const Positions& x, const Vector& v, EffectParameters p, int k,
                                     Forces& df) const override;
 

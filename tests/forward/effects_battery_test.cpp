@@ -106,6 +106,28 @@ class EffectLaw : public testing::TestWithParam<std::string> {
   Vector direction, velocity;
 };
 
+TEST_P(EffectLaw, ViscousSlopeIsTheViscousForcesDerivative) {
+  const auto at = [&](const Positions& y) {
+    Forces f = Forces::Zero(y.size());
+    effect->add_viscous_force(y, velocity, values, f);
+    return f;
+  };
+  Matrix slope = Matrix::Zero(x.size(), 1);
+  Stiffness scratch(model.pattern);
+  effect->add_viscous_force_slope(x, velocity, values, direction, scratch, slope);
+  const double scale = slope.norm();
+  if (at(x).isZero(0) || GetParam() == "viscosity") {
+    EXPECT_EQ(scale, 0);
+    return;
+  }
+  ASSERT_GT(scale, 0);
+  expect_v(errors_over_steps([&](double h) {
+             return ((at(x + h * direction) - at(x - h * direction)) / (2 * h) - slope).norm() /
+                    scale;
+           }),
+           1e-6);
+}
+
 TEST_P(EffectLaw, ForceIsMinusTheEnergysDerivative) {
   const double exact = -force_at(x).dot(direction);
   if (without_energy(GetParam())) {
