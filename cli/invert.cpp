@@ -4,6 +4,7 @@
 #include "cli/offline.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/result_log.hpp"
+#include "cli/together.hpp"
 #include "forward/model_file.hpp"
 #include "inverse/frame_target.hpp"
 #include "report/run_summary.hpp"
@@ -19,6 +20,8 @@ struct InvertOptions {
   double deadline_s = 0;
   int starts = 0, threads = 1;
   bool bilateral = false, robust = false, sequence = false, resume = false, json = false;
+  bool smooth = false;
+  TogetherOptions together;
 };
 
 /// All of them before the first is worked on: a bad point should not end hours of work.
@@ -54,14 +57,30 @@ nlohmann::json question(const InvertOptions& o, double noise) {
           {"target", o.measured.target},
           {"palate", o.measured.palate},
           {"noise_mm", 1e3 * noise},
+          {"units", o.measured.read.units},
+          {"mm_per_px", o.measured.read.mm_per_px},
+          {"facing", o.measured.read.facing},
+          {"sensors", o.measured.sensors},
+          {"registered", o.measured.registered},
           {"prior", o.prior},
           {"starts", o.starts},
           {"bilateral", o.bilateral},
           {"robust", o.robust},
-          {"sequence", o.sequence}};
+          {"sequence", o.sequence},
+          {"smooth", o.smooth},
+          {"dynamic", o.together.dynamic},
+          {"knot_s", o.together.knot_s},
+          {"step_s", o.together.step_s},
+          {"from_rest", o.together.from_rest},
+          {"start_s", o.together.start_s ? nlohmann::json(*o.together.start_s) : nlohmann::json()}};
 }
 
 int run(const InvertOptions& o) {
+  const bool together = o.smooth || o.together.dynamic;
+  if (o.smooth + o.together.dynamic + o.sequence > 1)
+    throw InputError("--sequence, --smooth and --dynamic: one of them");
+  if (!(o.together.knot_s > 0) || !(o.together.step_s > 0))
+    throw InputError("--knot-s and --step-s: must be above 0");
   if (o.resume && o.out.empty()) throw InputError("--resume: needs the --out of the earlier run");
   const Model model = read_model(o.model);
   const Measured measured = read_measured(o.measured, [&]() -> const Model& { return model; });
@@ -74,6 +93,7 @@ int run(const InvertOptions& o) {
   if (!o.out.empty()) log.emplace(o.out, question(o, measured.noise), o.resume);
   std::map<int, nlohmann::json> answers;
   if (log) answers = log->known();
+  const std::vector<Frame> everything = together ? frames : std::vector<Frame>();
   std::vector<Frame> open;
   for (Frame& frame : frames)
     if (!answers.contains(frame.contour.number)) open.push_back(std::move(frame));
@@ -85,28 +105,37 @@ int run(const InvertOptions& o) {
   // Runs of neighbours, as each frame starts where the one before ended.
   const int workers = std::clamp(o.threads, 1, std::max(1, int(open.size())));
   const auto share = [&](int k) { return open.size() * size_t(k) / size_t(workers); };
-  in_processes(
-      workers,
-      [&](int k, const Send& send) {
-        const std::vector<Frame> mine(open.begin() + long(share(k)),
-                                      open.begin() + long(share(k + 1)));
-        nlohmann::json before;
-        if (!mine.empty())
-          if (const auto it = answers.find(mine.front().contour.number - 1); it != answers.end())
-            before = it->second;
-        answer_frames(model, mine, offline, before, send);
-      },
-      [&](const nlohmann::json& result) {
-        const auto& answer = result["answer"];
-        if (log) log->add(answer);
-        answers[answer["frame"].get<int>()] = answer;
-        if (o.json) fmt::print("{}\n", answer.dump());
-        else
-          fmt::print("{}\n{}\n", result["title"].get<std::string>(),
-                     result["table"].get<std::string>());
-        std::fflush(stdout);
-        progress.step();
-      });
+  const auto collect = [&](const nlohmann::json& result) {
+    const auto& answer = result["answer"];
+    if (log) log->add(answer);
+    answers[answer["frame"].get<int>()] = answer;
+    if (o.json) fmt::print("{}\n", answer.dump());
+    else
+      fmt::print("{}\n{}\n", result["title"].get<std::string>(),
+                 result["table"].get<std::string>());
+    std::fflush(stdout);
+    progress.step();
+  };
+  if (together) {
+    TogetherOptions how = o.together;
+    how.threads = o.threads, how.resume = o.resume;
+    if (!open.empty()) answer_together(model, everything, offline, how, [&](const auto& result) {
+      if (!answers.contains(result["answer"]["frame"].template get<int>())) collect(result);
+    });
+  } else {
+    in_processes(
+        workers,
+        [&](int k, const Send& send) {
+          const std::vector<Frame> mine(open.begin() + long(share(k)),
+                                        open.begin() + long(share(k + 1)));
+          nlohmann::json before;
+          if (!mine.empty())
+            if (const auto it = answers.find(mine.front().contour.number - 1); it != answers.end())
+              before = it->second;
+          answer_frames(model, mine, offline, before, send);
+        },
+        collect);
+  }
   if (frames.size() > 1) fmt::print(stderr, "{}", summary_text(answers));
   if (log) write_summary(answers, o.out);
   return std::all_of(answers.begin(), answers.end(),
@@ -127,6 +156,17 @@ Runner add_invert(CLI::App& app) {
                  "explained)")
       ->check(CLI::Range(0, 1000));
   app.add_flag("--sequence", o->sequence, "Activations walk from frame to frame");
+  app.add_flag("--smooth", o->smooth, "The same, all frames as one smoothing problem");
+  app.add_flag("--dynamic", o->together.dynamic,
+               "All frames as one movement, with inertia and viscosity");
+  app.add_option("--knot-s", o->together.knot_s, "--dynamic: between bends of the commands [s]")
+      ->capture_default_str();
+  app.add_option("--step-s", o->together.step_s, "--dynamic: time step [s]")
+      ->capture_default_str();
+  app.add_option("--start-s", o->together.start_s,
+                 "--dynamic: when the movement starts [s] (0.1 s before the first frame)");
+  app.add_flag("--from-rest", o->together.from_rest,
+               "--dynamic: starts without commands; else from a posture that is found along");
   app.add_flag("--robust", o->robust, "Noise with outliers (Student's t)");
   app.add_flag("--bilateral", o->bilateral, "Left and right together");
   app.add_option("--deadline-s", o->deadline_s, "Time a frame may take");

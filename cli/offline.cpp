@@ -23,6 +23,8 @@ Vector told_unknowns(const nlohmann::json& answer, const std::vector<Command>& c
   return z;
 }
 
+}  // namespace
+
 AnswerView unanswered(const ContourFrame& frame) {
   AnswerView view;
   view.title = frame_title(frame), view.status = "failed", view.verdict = "none";
@@ -30,7 +32,15 @@ AnswerView unanswered(const ContourFrame& frame) {
   return view;
 }
 
-}  // namespace
+void send_answer(const Model& model, const ContourFrame& frame, const AnswerView& view,
+                 const Positions& shape, const std::string& out, const Send& send) {
+  if (!out.empty()) {
+    const std::string name = frame_name(frame);
+    write_report(model, view, frame.number, out, name);
+    if (shape.size() > 0) write_shape(model, shape, out + "/" + name + ".vtu");
+  }
+  send({{"answer", to_json(view, frame.number)}, {"title", view.title}, {"table", to_table(view)}});
+}
 
 void answer_frames(const Model& model, const std::vector<Frame>& frames, const OfflineOptions& o,
                    const nlohmann::json& before, const Send& send) {
@@ -57,14 +67,7 @@ void answer_frames(const Model& model, const std::vector<Frame>& frames, const O
         infer.start_by_unknown = answer.shape_by_unknown;
       last_time = frame.contour.time_s;
     }
-    if (!o.out.empty()) {
-      const std::string name = frame_name(frame.contour);
-      write_report(model, view, frame.contour.number, o.out, name);
-      if (answer.shape.size() > 0) write_shape(model, answer.shape, o.out + "/" + name + ".vtu");
-    }
-    send({{"answer", to_json(view, frame.contour.number)},
-          {"title", view.title},
-          {"table", to_table(view)}});
+    send_answer(model, frame.contour, view, answer.shape, o.out, send);
   }
 }
 

@@ -20,6 +20,13 @@ struct Frame {
   Target target;
 };
 
+/// What a frame without points gets.
+AnswerView unanswered(const ContourFrame& frame);
+
+/// Writes the frame's pictures, numbers and shape into `out` (where there is one), and sends it.
+void send_answer(const Model& model, const ContourFrame& frame, const AnswerView& view,
+                 const Positions& shape, const std::string& out, const Send& send);
+
 /// What send() gets of a frame: {"answer": to_json(), "title", "table"}. `before`: the activations
 /// of the frame before the first, as an answer tells them; may be null.
 void answer_frames(const Model& model, const std::vector<Frame>& frames,

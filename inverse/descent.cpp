@@ -50,7 +50,8 @@ DescentResult descend(MisfitProblem& problem, const Vector& start, const Descent
     return result;
   };
   auto value = problem.value(start);
-  auto local = value ? problem.local(start) : nullptr;
+  auto& local = result.local;
+  if (value) local = problem.local(start);
   if (!local) return failed(fmt::format("no start: {}", problem.last_failure()));
   result.u = start, result.value = *value;
   double trust = 1;

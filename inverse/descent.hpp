@@ -39,6 +39,7 @@ struct DescentResult {
   std::string message;  ///< the reason where it did not
   Vector u;             ///< best point; empty where there is none
   double value = 0;
+  std::shared_ptr<LocalProblem> local;  ///< at u
   int iterations = 0;         ///< local problems
   int solver_iterations = 0;  ///< Ipopt's in all of them
 };

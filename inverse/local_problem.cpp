@@ -108,6 +108,19 @@ void LocalProblem::evaluate(const Vector& u) {
   }
 }
 
+Matrix LocalProblem::jacobian(const Vector& u) {
+  evaluate(u);
+  Eigen::Index rows = 0;
+  for (const Matrix& j : jacobians_) rows += j.rows();
+  Matrix all = Matrix::Zero(rows, u.size());
+  rows = 0;
+  for (size_t k = 0; k < jacobians_.size(); ++k) {
+    all.middleRows(rows, jacobians_[k].rows())(Eigen::all, shapes_[k].which) = jacobians_[k];
+    rows += jacobians_[k].rows();
+  }
+  return all;
+}
+
 bool LocalProblem::value(const Vector& u, double& f) {
   evaluate(u);
   f = value_;

@@ -55,6 +55,9 @@ class LocalProblem final : public NonlinearProgram {
   Entries hessian_entries() const override;
   bool hessian(const Vector& u, double factor, const Vector&, std::span<double> values) override;
 
+  const std::vector<LocalShape>& shapes() const { return shapes_; }
+  /// d residuals / d unknowns of all shapes, over all unknowns, one shape's rows after another's.
+  Matrix jacobian(const Vector& u);
   /// The Hessian that Ipopt gets, at u.
   const Eigen::SparseMatrix<double>& hessian(const Vector& u);
 

@@ -24,7 +24,12 @@ std::string region(const TongueLine& line, const Positions& x, const Vec3& place
                            : "root";
 }
 
-/// Root mean square of the midsagittal line's displacement [m].
+std::string list(const std::vector<std::string>& names) {
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
 double way_from_rest(const Comparison& comparison, const Positions& x) {
   const auto& nodes = comparison.line().nodes();
   double sum = 0;
@@ -32,12 +37,6 @@ double way_from_rest(const Comparison& comparison, const Positions& x) {
     sum += (node_position(x, a) - node_position(comparison.rest(), a)).squaredNorm();
   return std::sqrt(sum / double(nodes.size()));
 }
-
-std::string list(const std::vector<std::string>& names) {
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-}  // namespace
 
 LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint& optimum) {
   const PriorTerms& prior = objective.prior();
@@ -116,6 +115,26 @@ double chi_square_tail(double chi2, double dof) {
   return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
+FitTest test_fit(const Vector& r, const Matrix& scatter, double used, double gain) {
+  const double dof = std::max(1.0, double(r.size()) - used);
+  const double chi2 = r.dot(scatter.llt().solve(r)), tail = chi_square_tail(chi2, dof);
+  const bool bounded = gain >= 0.5 * (chi2 - dof);
+  return {chi2 / dof, tail,
+          tail >= test_level ? Verdict::explained
+          : bounded          ? Verdict::unreachable
+                             : Verdict::mismatch};
+}
+
+CommandEstimate estimate(const Command& c, double mode, double lower, double upper,
+                         const Vector& samples, const Vector& believed) {
+  CommandEstimate e{c.name, mode * c.scale, c.scale, c.unit};
+  const auto s = summarise(samples, mode, lower, upper);
+  const double spread = std::sqrt((believed.array() - believed.mean()).square().mean());
+  e.sd = s.sd * c.scale, e.low = s.low * c.scale, e.high = s.high * c.scale;
+  e.information_bits = std::max(0.0, std::log2(spread / std::max(1e-12, s.sd)));
+  return e;
+}
+
 void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
                          const Comparison& comparison, const ModelError& error, Answer& answer) {
   const auto& commands = objective.commands();
@@ -144,12 +163,7 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
     e.low = e.high = e.force;
     e.fixed = prior.fixed(i);
     if (!e.fixed) {
-      const Vector drawn = samples.row(f);
-      const auto s = summarise(drawn, z[i], prior.lower[i], prior.upper[i]);
-      const Vector believed = before.row(f);
-      const double spread = std::sqrt((believed.array() - believed.mean()).square().mean());
-      e.sd = s.sd * c.scale, e.low = s.low * c.scale, e.high = s.high * c.scale;
-      e.information_bits = std::max(0.0, std::log2(spread / std::max(1e-12, s.sd)));
+      e = estimate(c, z[i], prior.lower[i], prior.upper[i], samples.row(f), before.row(f));
       const int side = pressed(narrow.density, f);
       e.at_lower = side<0, e.at_upper = side> 0;
       if (!e.at_lower && !e.at_upper) free.push_back(i);
@@ -171,28 +185,22 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   const double used =
       free.empty() ? 0.0
                    : (j_free * Matrix(rough(free, free)).llt().solve(j_free.transpose())).trace();
-  const double dof = std::max(1.0, double(optimum.residuals.values.size()) - used);
   const Vector& r = optimum.residuals.values;
-  const Matrix scatter = erring(error.left) + Matrix::Identity(r.size(), r.size());
-  const double chi2 = r.dot(scatter.llt().solve(r));
-  answer.chi2_per_dof = chi2 / dof;
-  const double tail = chi_square_tail(chi2, dof);
+  const FitTest test =
+      test_fit(r, erring(error.left) + Matrix::Identity(r.size(), r.size()), used,
+               optimum.gradient.dot(rough.llt().solve(optimum.gradient)));
+  answer.chi2_per_dof = test.chi2_per_dof, answer.verdict = test.verdict;
   Eigen::Index worst = 0;
   if (optimum.residuals.distances.size() > 0) optimum.residuals.distances.maxCoeff(&worst);
   const std::string where =
       region(comparison.line(), optimum.equilibrium.x, optimum.residuals.places[size_t(worst)]);
-  if (tail >= test_level) {
-    answer.verdict = Verdict::explained;
-    answer.message = fmt::format("misfit within noise (p = {:.2g})", tail);
-    return;
-  }
-  // What the misfit would lose if the bounds gave way.
-  const double gain = optimum.gradient.dot(rough.llt().solve(optimum.gradient));
-  const bool bounded = gain >= 0.5 * (chi2 - dof);
-  answer.verdict = bounded ? Verdict::unreachable : Verdict::mismatch;
-  answer.message = fmt::format(
-      "misfit beyond noise (p = {:.1g}), largest at the {}: {:.1f} mm; at maximum: {}; at zero: {}",
-      tail, where, 1e3 * optimum.residuals.max, list(at_maximum), list(at_zero));
+  answer.message =
+      test.verdict == Verdict::explained
+          ? fmt::format("misfit within noise (p = {:.2g})", test.tail)
+          : fmt::format("misfit beyond noise (p = {:.1g}), largest at the {}: {:.1f} mm; at maximum: "
+                        "{}; at zero: {}",
+                        test.tail, where, 1e3 * optimum.residuals.max, list(at_maximum),
+                        list(at_zero));
 }
 
 }  // namespace genio

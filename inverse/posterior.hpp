@@ -32,6 +32,23 @@ MarginalSummary summarise(Vector samples, double mode, double lower, double uppe
 /// Hilferty 1931, accurate to 1e-3 for dof >= 3).
 double chi_square_tail(double chi2, double dof);
 
+/// How far the shape's midsagittal line lies from rest, root mean square [m]: what the model's error
+/// is a part of.
+double way_from_rest(const Comparison& comparison, const Positions& x);
+
+/// The chi-square test of a fit, and what it means.
+struct FitTest {
+  double chi2_per_dof, tail;
+  Verdict verdict;
+};
+/// `scatter`: covariance of the residuals; `used`: effective parameters; `gain`: what the objective
+/// would lose, twice, by the Gauss-Newton step of the problem without bounds.
+FitTest test_fit(const Vector& residuals, const Matrix& scatter, double used, double gain);
+
+/// Estimate of an unknown from its mode and samples of its posterior and of its prior.
+CommandEstimate estimate(const Command& command, double mode, double lower, double upper,
+                         const Vector& samples, const Vector& believed);
+
 /// Directions about which the data say less than the prior: eigenvalues below 1 of the data's
 /// information in units of the prior's precision. Each is a group of commands and how much of each
 /// trades for how much of the others, in their own units, the largest 1 in activation.

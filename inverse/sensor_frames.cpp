@@ -14,10 +14,11 @@ std::string sensor_list(const SensorTable& table) {
     int seen = 0;
     for (const auto& row : table.samples)
       if (row[c].allFinite()) sum += row[c], ++seen;
-    list += seen == 0 ? fmt::format("\n  {}: never on", table.names[c])
-                      : fmt::format("\n  {}: about ({:.1f}, {:.1f}, {:.1f})", table.names[c],
+    list += seen == 0 ? fmt::format(" {}: never on;", table.names[c])
+                      : fmt::format(" {}: about ({:.1f}, {:.1f}, {:.1f});", table.names[c],
                                     sum[0] / seen, sum[1] / seen, sum[2] / seen);
   }
+  if (!list.empty()) list.pop_back();
   return list;
 }
 

@@ -14,14 +14,15 @@ bool any_one_sided(const Map& map) {
   return false;
 }
 
-void to_both_sides(std::vector<CommandEstimate>& commands) {
+}  // namespace
+
+void double_forces(std::vector<CommandEstimate>& commands) {
   for (CommandEstimate& c : commands) {
+    if (c.unit != "N") continue;
     c.force *= 2, c.max_force *= 2, c.sd *= 2;
     c.low *= 2, c.high *= 2;
   }
 }
-
-}  // namespace
 
 bool is_symmetric(const Target& target, const Prior& prior, const InferOptions& options) {
   if (!target.midsagittal() || !options.bilateral.value_or(true) || options.finite_differences)
@@ -57,13 +58,13 @@ InferOptions half_options(const Mirror& mirror, const InferOptions& options) {
 }
 
 Answer whole_answer(const Mirror& mirror, Answer answer) {
-  to_both_sides(answer.commands);
+  double_forces(answer.commands);
   for (TradeOff& trade : answer.unidentified)
     for (Share& share : trade)
       for (const CommandEstimate& c : answer.commands)
         if (c.name == share.name) share.amount *= 2;
   for (Alternative& a : answer.alternatives) {
-    to_both_sides(a.commands);
+    double_forces(a.commands);
     a.shape = mirror.whole(a.shape);
   }
   for (auto& row : answer.residuals.gradient)

@@ -15,6 +15,9 @@ Target half_target(const Mirror& mirror, const Target& target);
 Prior half_prior(Prior prior);
 InferOptions half_options(const Mirror& mirror, const InferOptions& options);
 
+/// Forces of both sides from those of one; other unknowns stay.
+void double_forces(std::vector<CommandEstimate>& commands);
+
 /// The half's answer as one of the whole tongue.
 Answer whole_answer(const Mirror& mirror, Answer answer);
 
