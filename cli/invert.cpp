@@ -20,6 +20,7 @@ struct InvertOptions {
   double deadline_s = 0;
   int starts = 0, threads = 1;
   bool bilateral = false, robust = false, sequence = false, resume = false, json = false;
+  bool full_space = false;
   bool smooth = false;
   TogetherOptions together;
 };
@@ -67,6 +68,7 @@ nlohmann::json question(const InvertOptions& o, double noise) {
           {"bilateral", o.bilateral},
           {"robust", o.robust},
           {"sequence", o.sequence},
+          {"full_space", o.full_space},
           {"smooth", o.smooth},
           {"dynamic", o.together.dynamic},
           {"knot_s", o.together.knot_s},
@@ -87,6 +89,7 @@ int run(const InvertOptions& o) {
   std::vector<Frame> frames = all_frames(model, measured, o);
   OfflineOptions offline{checked_prior(model, o), {}, {o.starts}, o.sequence, o.out};
   offline.infer.deadline_s = o.deadline_s;
+  offline.infer.full_space = o.full_space;
   if (o.bilateral) offline.infer.bilateral = true;
 
   std::optional<ResultLog> log;
@@ -167,6 +170,8 @@ Runner add_invert(CLI::App& app) {
                  "--dynamic: when the movement starts [s] (0.1 s before the first frame)");
   app.add_flag("--from-rest", o->together.from_rest,
                "--dynamic: starts without commands; else from a posture that is found along");
+  app.add_flag("--full-space", o->full_space,
+               "Positions and commands together as unknowns: slower, to check the default by");
   app.add_flag("--robust", o->robust, "Noise with outliers (Student's t)");
   app.add_flag("--bilateral", o->bilateral, "Left and right together");
   app.add_option("--deadline-s", o->deadline_s, "Time a frame may take");

@@ -54,7 +54,7 @@ Answer answer_at(const MotionAnswer& a, size_t frame) {
   Answer result;
   result.status = a.status, result.verdict = a.verdict, result.message = a.message;
   result.iterations = a.iterations, result.factorizations = a.factorizations;
-  result.wall_s = a.wall_s;
+  result.wall_s = a.wall_s / std::max<double>(1, double(a.frames.size()));
   if (a.status != InferStatus::converged) return result;
   const auto& f = a.frames[frame];
   result.shape = f.shape, result.residuals = f.residuals;

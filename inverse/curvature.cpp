@@ -14,7 +14,20 @@ Matrix products(const Model& model, const Positions& x, const Parameters& p, con
   return k.multiply_columns(columns);
 }
 
-/// lambda . dP_j/dz_i; zero, and cheap, where forces are linear in the unknowns.
+}  // namespace
+
+Matrix command_pulls(const Model& model, const std::vector<Command>& commands, const Positions& x,
+                     const Parameters& p) {
+  Matrix pulls = Matrix::Zero(x.size(), Eigen::Index(commands.size()));
+  for (size_t c = 0; c < commands.size(); ++c) {
+    const Matrix each = force_derivatives(model, x, p, commands[c].parameters);
+    for (size_t i = 0; i < commands[c].shares.size(); ++i)
+      pulls.col(Eigen::Index(c)) +=
+          commands[c].shares[i] * commands[c].scale * each.col(Eigen::Index(i));
+  }
+  return pulls;
+}
+
 Matrix pull_changes(const Model& model, const std::vector<Command>& commands, const Vector& z,
                     const Positions& x, const Parameters& p, const Vector& adjoint) {
   const auto pulls = [&](const Vector& at) -> Vector {
@@ -31,20 +44,6 @@ Matrix pull_changes(const Model& model, const std::vector<Command>& commands, co
     changes.row(i) = (pulls(z + e) - pulls(z - e)).transpose() / (2 * unknown_step);
   }
   return changes;
-}
-
-}  // namespace
-
-Matrix command_pulls(const Model& model, const std::vector<Command>& commands, const Positions& x,
-                     const Parameters& p) {
-  Matrix pulls = Matrix::Zero(x.size(), Eigen::Index(commands.size()));
-  for (size_t c = 0; c < commands.size(); ++c) {
-    const Matrix each = force_derivatives(model, x, p, commands[c].parameters);
-    for (size_t i = 0; i < commands[c].shares.size(); ++i)
-      pulls.col(Eigen::Index(c)) +=
-          commands[c].shares[i] * commands[c].scale * each.col(Eigen::Index(i));
-  }
-  return pulls;
 }
 
 Vector misfit_gradient(const Residuals& residuals, Eigen::Index size) {

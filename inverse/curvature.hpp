@@ -11,6 +11,10 @@ namespace genio {
 Matrix command_pulls(const Model& model, const std::vector<Command>& commands, const Positions& x,
                      const Parameters& p);
 
+/// adjoint . dP_j/dz_i, P the pulls; zero, and cheap, where forces are linear in the unknowns.
+Matrix pull_changes(const Model& model, const std::vector<Command>& commands, const Vector& z,
+                    const Positions& x, const Parameters& p, const Vector& adjoint);
+
 /// The derivative of the misfit with respect to the nodal positions, sum_k r_k dr_k/dx [1/m].
 Vector misfit_gradient(const Residuals& residuals, Eigen::Index size);
 

@@ -25,6 +25,8 @@ struct InferOptions {
   /// be the very equilibrium of `start`, and the first step costs no mechanics.
   Matrix start_by_unknown;
   bool rough_start = false;  ///< `start` is only a guess: go near under more effort first
+  /// Positions and commands together as unknowns (infer_full_space()); to check the default by.
+  bool full_space = false;
   /// Gradient by differences and a quasi-Newton Hessian, to compare with: no posterior.
   bool finite_differences = false;
   std::function<bool()> cancelled;  ///< asked between steps; true ends the work

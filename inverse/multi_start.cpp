@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inverse/full_space.hpp"
+#include "inverse/global_starts.hpp"
+
 namespace genio {
 namespace {
 
@@ -37,10 +40,15 @@ std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, cons
   const auto commands = unknowns(model, prior, bilateral);
   const PriorTerms terms = prior_terms(prior, commands);
   const Atlas& atlas = tongue.atlas.get(model, prior, bilateral, tongue.workspace);
-  for (const Atlas::Entry* e : nearest(atlas, Comparison(model, target), commands, terms)) {
-    if (int(starts.size()) == count) return starts;
-    starts.push_back(*e);
-  }
+  const Comparison comparison(model, target);
+  const auto near = nearest(atlas, comparison, commands, terms);
+  // The nearest known shape first; then, in halves, the valleys that its neighbours foretell and
+  // the other shapes.
+  if (!near.empty()) starts.push_back(*near.front());
+  for (auto& valley : valleys(atlas, comparison, commands, terms, count / 2))
+    if (int(starts.size()) < count) starts.push_back(std::move(valley));
+  for (size_t k = 1; k < near.size() && int(starts.size()) < count; ++k)
+    starts.push_back(*near[k]);
   const int drawn = count - int(starts.size());
   const Matrix draws = prior_draws(terms, std::max(0, drawn));
   for (int k = 0; k < drawn; ++k) starts.push_back({draws.col(k), {}, {}});
@@ -92,7 +100,8 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     here.start_by_unknown = start.by_unknown;
     here.rough_start = start.shape.size() == 0;
     if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - wall) <= 0) break;
-    last = infer(model, target, prior, tongue.workspace, here);
+    last = (options.full_space ? infer_full_space : infer)(model, target, prior, tongue.workspace,
+                                                           here);
     wall += last.wall_s, iterations += last.iterations;
     factorizations += last.factorizations, solves += last.forward_solves;
     if (last.status == InferStatus::converged) found.push_back(last);
