@@ -42,10 +42,22 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
 /// Round trips over LCM on 127.0.0.1 beside the bare computation.
 Json service(const Model& model);
 
-/// One frame from the middle of each label (word) of a recording, registered by its palate trace.
-/// Throws InputError for files that cannot be read.
-Json ultrasound(const Model& model, const std::string& contours, const std::string& palate,
+/// One frame from the middle of each label (word) of a recording, each cold, or all frames, each
+/// from where the one before ended; registered by its palate trace. Throws InputError for files that
+/// cannot be read.
+Json ultrasound(const Model& model, const std::string& contours, const std::string& palate, bool all,
                 const Progress& progress);
+
+/// `count` targets of the model itself, from rest to the edge of what muscles can do: random vectors
+/// of 2 to 5 muscles, the strongest from next to nothing to its maximum.
+Json reach(const Model& model, int count, const Progress& progress);
+
+/// The Grenoble tongue of `folder` asked to move 22 nodes 10 mm forward, where a stored run of the
+/// peer's inverse controller misses by 2.07 mm RMS.
+Json peer(const std::string& folder, const Progress& progress);
+
+/// A 200 ms gesture with two targets inverted with its inertia, over the time of its simulation.
+Json gesture(const Model& model, const Progress& progress);
 
 /// The Grenoble tongue of `folder` under GGP and HG: without contact against an independent static
 /// solution of the same problem, with contact beside the seed paper's printed figures.

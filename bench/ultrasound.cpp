@@ -24,15 +24,26 @@ std::vector<const ContourFrame*> middle_frames(const ContourFile& file) {
   return result;
 }
 
+std::vector<const ContourFrame*> every_frame(const ContourFile& file) {
+  std::vector<const ContourFrame*> result;
+  for (const auto& frame : file.frames) result.push_back(&frame);
+  return result;
+}
+
+/// `infer`: where to start, replaced by where it ended.
 Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& transform,
-                  double noise, InferWorkspace& ws) {
+                  double noise, InferWorkspace& ws, InferOptions& infer) {
   Json j = {{"frame", frame.number}, {"label", frame.label}};
   const Target target = make_target(m, registered(m, frame, transform), noise);
   if (target.empty()) {
     j["status"] = "failed", j["message"] = frame.note;
     return j;
   }
-  const Answer a = infer_from_starts(m, target, Prior{}, ws);
+  const Answer a = infer_from_starts(m, target, Prior{}, ws, infer);
+  if (a.status == InferStatus::converged) {
+    infer.start = a.activations, infer.start_shape = a.shape;
+    infer.start_by_unknown = a.shape_by_unknown;
+  }
   j["status"] = to_string(a.status), j["verdict"] = to_string(a.verdict), j["message"] = a.message;
   j["rms_mm"] = 1e3 * a.rms, j["max_mm"] = 1e3 * a.max;
   j["wall_s"] = a.wall_s, j["factorizations"] = a.factorizations;
@@ -42,15 +53,19 @@ Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& t
 
 }  // namespace
 
-Json ultrasound(const Model& m, const std::string& contours, const std::string& palate,
+Json ultrasound(const Model& m, const std::string& contours, const std::string& palate, bool all,
                 const Progress& progress) {
   const auto [file, r] = register_file(m, read_contours(contours), palate);
   InferWorkspace ws(m);
   Json frames = Json::array();
   std::vector<double> rms, seconds;
   int empty = 0;
-  for (const ContourFrame* frame : middle_frames(file)) {
-    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws);
+  std::map<std::string, int> verdicts;
+  InferOptions infer;
+  for (const ContourFrame* frame : all ? every_frame(file) : middle_frames(file)) {
+    if (!all) infer = {};
+    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws, infer);
+    ++verdicts[j["status"] == "converged" ? j["verdict"].get<std::string>() : "no answer"];
     if (progress)
       progress(fmt::format("{:>5}  {:<28} {:<10} {:<12} {:5.2f} mm {:6.2f} s  {}", frame->number,
                            frame->label, j["status"].get<std::string>(), j.value("verdict", ""),
@@ -65,7 +80,8 @@ Json ultrasound(const Model& m, const std::string& contours, const std::string& 
     std::sort(v.begin(), v.end());
     return v.empty() ? Json() : Json(0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]));
   };
-  return {{"labels", frames.size()},
+  return {{"cases", frames.size()},
+          {"verdicts", verdicts},
           {"empty_frames", empty},
           {"answered", rms.size()},
           {"rms_mm_median", median(rms)},

@@ -11,7 +11,7 @@ namespace {
 struct BenchOptions {
   std::string what, model = default_model(), data, target, palate, out;
   int sample = 0;
-  bool json = false;
+  bool json = false, all = false;
 };
 
 const std::string& needed(const std::string& value, const char* option, const std::string& what) {
@@ -22,7 +22,9 @@ const std::string& needed(const std::string& value, const char* option, const st
 int run(const BenchOptions& o) {
   const auto tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
   bench::Json j;
-  if (o.what == "grenoble") {
+  if (o.what == "peer") {
+    j = bench::peer(needed(o.data, "--data", o.what), tell);
+  } else if (o.what == "grenoble") {
     j = bench::grenoble(needed(o.data, "--data", o.what), tell);
   } else if (o.what == "forward") {
     j = bench::forward(tell);
@@ -36,12 +38,15 @@ int run(const BenchOptions& o) {
     if (o.what == "inverse") {
       j = bench::inversion_cost(m, tell);
       j.update(bench::blind(read_description(o.model), o.sample > 0 ? o.sample : 20, tell));
-    } else if (o.what == "robustness")
+    } else if (o.what == "reach")
+      j = bench::reach(m, o.sample > 0 ? o.sample : 200, tell);
+    else if (o.what == "gesture") j = bench::gesture(m, tell);
+    else if (o.what == "robustness")
       j = bench::robustness(m, o.sample > 0 ? o.sample : 500, tell);
     else if (o.what == "service") j = bench::service(m);
     else
       j = bench::ultrasound(m, needed(o.target, "--target", o.what),
-                            needed(o.palate, "--palate", o.what), tell);
+                            needed(o.palate, "--palate", o.what), o.all, tell);
   }
   fmt::print("{}\n", o.json ? j.dump() : j.dump(2));
   return done;
@@ -53,16 +58,18 @@ Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
   app.add_option(
          "what", o->what,
-         "forward, dynamic, robustness, verification, inverse, service, ultrasound, grenoble")
+         "forward, dynamic, robustness, verification, inverse, reach, peer, gesture, service, "
+         "ultrasound, grenoble")
       ->required()
-      ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse",
-                             "service", "ultrasound", "grenoble"}));
+      ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse", "reach",
+                             "peer", "gesture", "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
-  app.add_option("--data", o->data, "grenoble, dynamic, verification: folder of the ANSYS files");
+  app.add_option("--data", o->data, "grenoble, peer, dynamic, verification: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
-  app.add_option("--sample", o->sample, "Random cases: robustness (500), inverse (20)")
+  app.add_option("--sample", o->sample, "Random cases: robustness (500), reach (200), inverse (20)")
       ->check(CLI::Range(1, 100000));
+  app.add_flag("--all", o->all, "ultrasound: every frame, not one a word");
   app.add_option("--out", o->out, "verification: folder for its tables and plots");
   app.add_flag("--json", o->json, "One JSON object on standard output");
   app.footer("Example: genio bench inverse");

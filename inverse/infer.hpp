@@ -49,6 +49,9 @@ struct CommandEstimate {
   double low = 0, high = 0;     ///< 90 % interval; one-sided where the force is at a bound
   double information_bits = 0;  ///< binary logarithm of the prior's over the posterior's sd
   bool at_lower = false, at_upper = false, fixed = false;
+  /// Where a bound presses: how much the objective (half a chi-square) would fall a unit of z beyond
+  /// it, the bound's multiplier.
+  double multiplier = 0;
 };
 
 /// What trades for what without the data noticing: a direction in the unknowns, in their own units.

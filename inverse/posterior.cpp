@@ -165,7 +165,8 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
     if (!e.fixed) {
       e = estimate(c, z[i], prior.lower[i], prior.upper[i], samples.row(f), before.row(f));
       const int side = pressed(narrow.density, f);
-      e.at_lower = side<0, e.at_upper = side> 0;
+      e.at_lower = side < 0, e.at_upper = side > 0;
+      if (side != 0) e.multiplier = std::abs(narrow.density.slope[f]);
       if (!e.at_lower && !e.at_upper) free.push_back(i);
       ++f;
     }

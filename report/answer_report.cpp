@@ -29,7 +29,8 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   j["frame"] = frame;
   j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
   for (const char* key :
-       {"forces_N", "sd_N", "interval90_N", "activation", "information_bits", "estimated"})
+       {"forces_N", "sd_N", "interval90_N", "activation", "information_bits", "bound_multipliers",
+        "estimated"})
     j[key] = nlohmann::json::object();
   for (const auto& c : v.commands) {
     j["forces_N"][c.name] = c.force;
@@ -37,6 +38,7 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
     j["interval90_N"][c.name] = {c.low, c.high};
     j["activation"][c.name] = c.force / c.max_force;
     j["information_bits"][c.name] = c.information_bits;
+    if (c.multiplier > 0) j["bound_multipliers"][c.name] = c.multiplier;
   }
   for (const auto& c : v.along)
     j["estimated"][c.name] = {

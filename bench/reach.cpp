@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "bench/benchmarks.hpp"
+#include "bench/clock.hpp"
+#include "inverse/multi_start.hpp"
+
+namespace genio::bench {
+
+Json reach(const Model& model, int count, const Progress& progress) {
+  InferWorkspace ws(model);
+  Workspace truth(model);
+  const auto commands = muscle_commands(model, true);
+  std::mt19937 random(416);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<double> rms, wall;
+  std::map<std::string, int> verdicts;
+  Json failures = Json::array(), without_equilibrium = Json::array();
+  int converged = 0, targets = 0;
+  while (targets < count) {
+    Vector z = Vector::Zero(Eigen::Index(commands.size()));
+    std::vector<int> order(commands.size());
+    for (size_t i = 0; i < order.size(); ++i) order[i] = int(i);
+    std::shuffle(order.begin(), order.end(), random);
+    const int active = 2 + int(4 * uniform(random));
+    for (int i = 0; i < active; ++i) z[order[size_t(i)]] = i == 0 ? 1 : uniform(random);
+    z *= (targets + 1.0) / count;  // from rest to where one is at its maximum
+    const Equilibrium e = solve_equilibrium(
+        model, apply_commands(commands, z, default_parameters(model)), model.rest, truth);
+    if (!e) {  // no shape, no target
+      without_equilibrium.push_back(e.message);
+      if (int(without_equilibrium.size()) > count) break;
+      continue;
+    }
+    ++targets;
+    const Answer a =
+        infer_from_starts(model, curve_target(model, e.x, 40, 0.5e-3), Prior{}, ws);
+    wall.push_back(a.wall_s);
+    if (a.status == InferStatus::converged) {
+      ++converged, ++verdicts[to_string(a.verdict)];
+      rms.push_back(1e3 * a.rms);
+    } else {
+      failures.push_back(fmt::format("target {}, strongest at {:.0f} %: {}", targets,
+                                     100 * z.maxCoeff(), a.message));
+    }
+    if (progress && targets % 10 == 0)
+      progress(fmt::format("{} of {}: {} converged, median RMS {:.3f} mm, {:.2f} s", targets, count,
+                           converged, median(rms), median(wall)));
+  }
+  return {{"targets", targets},
+          {"converged_fraction", double(converged) / targets},
+          {"verdicts", verdicts},
+          {"rms_mm_median", median(rms)},
+          {"rms_mm_worst_twentieth", [&] {
+             std::sort(rms.begin(), rms.end());
+             return rms.empty() ? 0 : rms[rms.size() * 19 / 20];
+           }()},
+          {"wall_s_median", median(wall)},
+          {"failures", failures},
+          {"truths_without_equilibrium", without_equilibrium}};
+}
+
+}  // namespace genio::bench
