@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "inverse/chained_prior.hpp"
 #include "report/motion_report.hpp"
 
 namespace genio::cli {
 namespace {
-
-constexpr double default_step = 0.01;  // between frames without times [s]
 
 /// The unknowns of an earlier answer; empty where they are not all told.
 Vector told_unknowns(const nlohmann::json& answer, const std::vector<Command>& commands) {
@@ -56,9 +55,8 @@ void answer_frames(const Model& model, const std::vector<Frame>& frames, const O
         infer.start = told_unknowns(
             before, unknowns(model, prior, infer.bilateral.value_or(frame.target.midsagittal())));
       if (o.sequence && infer.start.size() > 0) {
-        const double dt = frame.contour.time_s - last_time;
         prior.before =
-            Prior::Before{infer.start, prior.smoothness_sd * std::sqrt(dt > 0 ? dt : default_step)};
+            Prior::Before{infer.start, walk_sd(prior, last_time, frame.contour.time_s)};
       }
       answer = infer_from_starts(model, frame.target, prior, ws, infer, o.starts);
       view = view_of(model, frame.target, answer, frame_title(frame.contour));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 #include "inverse/table_text.hpp"
 
 namespace genio {

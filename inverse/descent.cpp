@@ -27,7 +27,8 @@ Vector minimum(LocalProblem& local, const MisfitProblem& problem, double trust, 
   options.tolerance = 1e-5;
   const ProgramResult r = solve(local, anchor, options);
   iterations += r.iterations;
-  Vector u = r.v.size() == anchor.size() ? r.v : anchor;
+  if (r.v.size() != anchor.size()) return anchor;  // all unknowns are fixed
+  Vector u = r.v;
   for (Eigen::Index i = 0; i < u.size(); ++i) {
     if (u[i] - lower[i] < on_bound && r.lower_multipliers[i] > u[i] - lower[i]) u[i] = lower[i];
     if (upper[i] - u[i] < on_bound && r.upper_multipliers[i] > upper[i] - u[i]) u[i] = upper[i];

@@ -8,7 +8,6 @@
 
 #include "inverse/motion_problem.hpp"
 #include "inverse/posterior.hpp"
-#include "inverse/sequence.hpp"
 
 namespace genio {
 namespace {
@@ -197,8 +196,7 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
       for (size_t k = 0; k < own.size(); ++k)
         answer.frames.push_back({own[k].time_s, shape_at(answer.trajectory, own[k].time_s),
                                  problem.residuals()[k]});
-      for (size_t j = 0; j < answer.knots_s.size(); ++j)
-        answer.unknowns.push_back(r.u.segment(n * Eigen::Index(j), n));
+      answer.unknowns = by_point(r.u, n);
       summarise(problem, *r.local, r.u, o.infer.model_error, answer);
     } else {
       answer.message = problem.last_failure();

@@ -4,7 +4,6 @@
 
 #include "forward/sensitivity.hpp"
 #include "inverse/curvature.hpp"
-#include "inverse/sequence.hpp"
 
 namespace genio {
 
@@ -36,37 +35,20 @@ MotionProblem::MotionProblem(const Model& model, const std::vector<MotionFrame>&
 }
 
 void MotionProblem::set_prior(const Prior& prior) {
-  const PriorTerms terms = prior_terms(prior, commands_);
-  const auto n = Eigen::Index(commands_.size()), count = controls_.unknowns();
-  lower_.resize(count), upper_.resize(count);
-  std::vector<Eigen::Triplet<double>> rows;
-  std::vector<double> values;
-  for (size_t j = 0; j < controls_.knots.size(); ++j) {
-    const auto first = n * Eigen::Index(j);
-    lower_.segment(first, n) = terms.lower, upper_.segment(first, n) = terms.upper;
-    for (Eigen::Index r = 0; r < terms.rows.rows(); ++r) {
-      for (Eigen::Index c = 0; c < n; ++c)
-        if (terms.rows(r, c) != 0)
-          rows.emplace_back(int(values.size()), int(first + c), terms.rows(r, c));
-      values.push_back(terms.values[r]);
-    }
-    for (Eigen::Index c = 0; j > 0 && c < n; ++c) {
-      const double sd = walk_sd(prior, controls_.knots[j - 1], controls_.knots[j]);
-      rows.emplace_back(int(values.size()), int(first + c), 1 / sd);
-      rows.emplace_back(int(values.size()), int(first - n + c), -1 / sd);
-      values.push_back(0);
-    }
+  const size_t count = controls_.knots.size();
+  std::vector<double> steps(count, 1);
+  for (size_t j = 1; j < count; ++j)
+    steps[j] = walk_sd(prior, controls_.knots[j - 1], controls_.knots[j]);
+  prior_ = chained(std::vector(count, prior_terms(prior, commands_)), steps,
+                   std::vector<bool>(commands_.size(), true));
+  if (!options_.from_rest) return;
+  for (size_t c = 0; c < commands_.size(); ++c) {
+    const Command& command = commands_[c];
+    const auto at = Eigen::Index(c);
+    prior_.lower[at] = prior_.upper[at] =
+        command.kind == Command::Kind::muscle ? 0
+                                              : base_[command.parameters.front()] / command.scale;
   }
-  if (options_.from_rest)
-    for (Eigen::Index c = 0; c < n; ++c) {
-      const Command& command = commands_[size_t(c)];
-      lower_[c] = upper_[c] = command.kind == Command::Kind::muscle
-                                  ? 0
-                                  : base_[command.parameters.front()] / command.scale;
-    }
-  prior_.rows.resize(Eigen::Index(values.size()), count);
-  prior_.rows.setFromTriplets(rows.begin(), rows.end());
-  prior_.values = Eigen::Map<const Vector>(values.data(), Eigen::Index(values.size()));
 }
 
 double MotionProblem::seconds() const {
@@ -115,7 +97,7 @@ std::optional<double> MotionProblem::value(const Vector& u) {
     return {};
   }
   std::vector<Residuals> residuals;
-  double value = prior_.value(u);
+  double value = prior_.all.value(u);
   for (size_t k = 0; k < frames_.size(); ++k) {
     residuals.push_back(comparisons_[k](shape_at(t, frames_[k].time_s)));
     value += 0.5 * residuals.back().values.squaredNorm();
@@ -157,13 +139,8 @@ std::unique_ptr<LocalProblem> MotionProblem::local(const Vector& u) {
                         positions[k](Eigen::all, moving), HeadPose{},
                         Matrix::Zero(3, Eigen::Index(moving.size())), moving);
   }
-  if (options_.checkpoint) {
-    std::vector<Vector> by_knot;
-    for (size_t j = 0; j < controls_.knots.size(); ++j)
-      by_knot.push_back(u.segment(n * Eigen::Index(j), n));
-    options_.checkpoint(by_knot);
-  }
-  return std::make_unique<LocalProblem>(std::move(shapes), prior_, u);
+  if (options_.checkpoint) options_.checkpoint(by_point(u, n));
+  return std::make_unique<LocalProblem>(std::move(shapes), prior_.all, u);
 }
 
 }  // namespace genio

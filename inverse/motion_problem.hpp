@@ -1,6 +1,7 @@
 #pragma once
 // A movement as a descent. Not for other rooms.
 
+#include "inverse/chained_prior.hpp"
 #include "inverse/motion_inversion.hpp"
 #include "inverse/objective.hpp"
 
@@ -24,10 +25,10 @@ class MotionProblem final : public MisfitProblem {
   int simulations() const { return simulations_; }
   InferStatus stop_reason() const { return stop_; }
   double seconds() const;
-  const QuadraticTerm& prior() const { return prior_; }
+  const QuadraticTerm& prior() const { return prior_.all; }
 
-  const Vector& lower() const override { return lower_; }
-  const Vector& upper() const override { return upper_; }
+  const Vector& lower() const override { return prior_.lower; }
+  const Vector& upper() const override { return prior_.upper; }
   std::optional<double> value(const Vector& u) override;
   std::unique_ptr<LocalProblem> local(const Vector& u) override;
   bool stopped() override;
@@ -48,8 +49,7 @@ class MotionProblem final : public MisfitProblem {
   Controls controls_;
   Parameters base_;
   std::vector<Comparison> comparisons_;
-  QuadraticTerm prior_;
-  Vector lower_, upper_;
+  ChainedPrior prior_;
   std::optional<Equilibrium> start_;
   Vector at_;  // the latest point, and there:
   Trajectory trajectory_;

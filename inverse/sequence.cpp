@@ -12,7 +12,6 @@
 namespace genio {
 namespace {
 
-constexpr double default_step = 0.01;  // between frames without times [s]
 constexpr double first_pass = 0.5;     // its part of the work, about
 
 struct Told {
@@ -155,10 +154,6 @@ void summarise(std::vector<std::unique_ptr<JointFrame>>& frames, const SequenceP
 
 }  // namespace
 
-double walk_sd(const Prior& prior, double from_s, double to_s) {
-  return prior.smoothness_sd * std::sqrt(to_s > from_s ? to_s - from_s : default_step);
-}
-
 std::vector<Answer> infer_sequence(const Model& model, const std::vector<SequenceFrame>& all,
                                    const Prior& prior, InferWorkspace& ws,
                                    const SequenceOptions& o) {
@@ -220,7 +215,7 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
   }
   SequenceProblem problem(joint, groups);
   problem.accepted = [&](const Vector& u) {
-    if (o.checkpoint && kept.size() == frames.size()) o.checkpoint(problem.by_frame(u));
+    if (o.checkpoint && kept.size() == frames.size()) o.checkpoint(by_point(u, n));
   };
   DescentOptions descent{how.infer.max_iterations, how.infer.tolerance * double(kept.size()), {}};
   descent.progress = [&](int step, double) {

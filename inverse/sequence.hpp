@@ -23,10 +23,6 @@ struct SequenceOptions {
   std::function<void(double part, const std::string& what)> progress;
 };
 
-/// Step of activations that the walk allows from one frame to the next, prior.smoothness_sd
-/// sqrt(dt).
-double walk_sd(const Prior& prior, double from_s, double to_s);
-
 /// All frames' unknowns together minimise the sum of their misfits and priors and of the squared
 /// steps from frame to frame over walk_sd(): what a Kalman smoother does where shapes are linear in
 /// commands. First frame by frame, then joint local problems (descend()). Each answer's posterior

@@ -11,47 +11,17 @@ SequenceProblem::SequenceProblem(std::vector<std::unique_ptr<JointFrame>>& frame
     : frames_(frames),
       groups_(std::move(groups)),
       count_(Eigen::Index(frames.front()->objective.commands().size())) {
-  const auto n = count_ * Eigen::Index(frames_.size());
   for (const Command& c : frames_.front()->objective.commands())
     walks_.push_back(c.kind != Command::Kind::pose);
-  lower_.resize(n), upper_.resize(n);
-  std::vector<Eigen::Triplet<double>> own, steps;
-  std::vector<double> values;
-  int step = 0;
-  for (size_t k = 0; k < frames_.size(); ++k) {
-    const PriorTerms& terms = frames_[k]->objective.prior();
-    const auto first = count_ * Eigen::Index(k);
-    lower_.segment(first, count_) = terms.lower, upper_.segment(first, count_) = terms.upper;
-    for (Eigen::Index r = 0; r < terms.rows.rows(); ++r) {
-      for (Eigen::Index c = 0; c < count_; ++c)
-        if (terms.rows(r, c) != 0) own.emplace_back(int(values.size()), int(first + c), terms.rows(r, c));
-      values.push_back(terms.values[r]);
-    }
-    for (Eigen::Index c = 0; k > 0 && c < count_; ++c) {
-      if (!walks_[size_t(c)]) continue;
-      steps.emplace_back(step, int(first + c), 1 / frames_[k]->walk_sd);
-      steps.emplace_back(step++, int(first - count_ + c), -1 / frames_[k]->walk_sd);
-    }
-  }
-  const int of_frames = int(values.size());
-  walk_.rows.resize(step, n);
-  walk_.rows.setFromTriplets(steps.begin(), steps.end());
-  walk_.values = Vector::Zero(step);
-  for (auto& e : steps) own.emplace_back(of_frames + e.row(), e.col(), e.value());
-  prior_.rows.resize(of_frames + step, n);
-  prior_.rows.setFromTriplets(own.begin(), own.end());
-  prior_.values = Vector::Zero(of_frames + step);
-  prior_.values.head(of_frames) = Eigen::Map<const Vector>(values.data(), of_frames);
+  std::vector<PriorTerms> points;
+  std::vector<double> steps;
+  for (const auto& f : frames_)
+    points.push_back(f->objective.prior()), steps.push_back(f->walk_sd);
+  prior_ = chained(points, steps, walks_);
 }
 
 Vector SequenceProblem::unknowns_of(const Vector& u, size_t frame) const {
   return u.segment(count_ * Eigen::Index(frame), count_);
-}
-
-std::vector<Vector> SequenceProblem::by_frame(const Vector& u) const {
-  std::vector<Vector> result;
-  for (size_t k = 0; k < frames_.size(); ++k) result.push_back(unknowns_of(u, k));
-  return result;
 }
 
 std::pair<Vector, Vector> SequenceProblem::walk_slopes(const Vector& u, size_t k) const {
@@ -91,7 +61,7 @@ std::optional<double> SequenceProblem::value(const Vector& u) {
         return v.has_value();
       }))
     return {};
-  double sum = walk_.value(u);
+  double sum = prior_.walk.value(u);
   for (double v : values) sum += v;
   return sum;
 }
@@ -106,7 +76,7 @@ std::unique_ptr<LocalProblem> SequenceProblem::local(const Vector& u) {
   std::vector<LocalShape> shapes;
   for (auto& shape : found) shapes.push_back(std::move(*shape));
   if (accepted) accepted(u);
-  return std::make_unique<LocalProblem>(std::move(shapes), prior_, u);
+  return std::make_unique<LocalProblem>(std::move(shapes), prior_.all, u);
 }
 
 bool SequenceProblem::stopped() {

@@ -1,6 +1,7 @@
 #pragma once
 // The frames of a recording as one descent. Not for other rooms.
 
+#include "inverse/chained_prior.hpp"
 #include "inverse/objective.hpp"
 
 namespace genio {
@@ -28,15 +29,14 @@ class SequenceProblem final : public MisfitProblem {
   SequenceProblem(std::vector<std::unique_ptr<JointFrame>>& frames, std::vector<size_t> groups);
 
   Vector unknowns_of(const Vector& u, size_t frame) const;
-  std::vector<Vector> by_frame(const Vector& u) const;
   /// The walk's slope at u with respect to frame k's unknowns, of the step to it and of that from
   /// it.
   std::pair<Vector, Vector> walk_slopes(const Vector& u, size_t k) const;
   /// True for unknowns that walk; the head pose does not.
   const std::vector<bool>& walks() const { return walks_; }
 
-  const Vector& lower() const override { return lower_; }
-  const Vector& upper() const override { return upper_; }
+  const Vector& lower() const override { return prior_.lower; }
+  const Vector& upper() const override { return prior_.upper; }
   std::optional<double> value(const Vector& u) override;
   std::unique_ptr<LocalProblem> local(const Vector& u) override;
   bool stopped() override;
@@ -53,8 +53,7 @@ class SequenceProblem final : public MisfitProblem {
   std::vector<size_t> groups_;
   Eigen::Index count_;  // unknowns a frame
   std::vector<bool> walks_;
-  Vector lower_, upper_;
-  QuadraticTerm prior_, walk_;
+  ChainedPrior prior_;
   std::string failure_;
 };
 

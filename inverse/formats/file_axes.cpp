@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 
 namespace genio {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "forward/nearest_name.hpp"
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 #include "inverse/table_text.hpp"
 
 namespace genio {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 #include "inverse/table_text.hpp"
 
 namespace genio {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "forward/triangle_surface.hpp"
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 
 namespace genio {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 
 namespace genio {
 namespace {

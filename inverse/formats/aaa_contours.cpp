@@ -4,7 +4,7 @@
 #include <limits>
 #include <regex>
 
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 #include "inverse/table_text.hpp"
 
 namespace genio {

@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 
 namespace genio {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <limits>
 
-#include "inverse/contour_formats.hpp"
+#include "inverse/formats/contour_formats.hpp"
 #include "inverse/table_text.hpp"
 
 namespace genio {
