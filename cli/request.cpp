@@ -15,10 +15,11 @@ struct RequestOptions {
   MeasuredOptions measured;
   std::string url, model = default_model(), out, cancel_id;
   double timeout_s = 120, deadline_s = 0;
+  int starts = 0;
   bool json = false;
 };
 
-shape_request_t request_of(const ContourFrame& frame, double noise, double deadline_s) {
+shape_request_t request_of(const ContourFrame& frame, double noise, const RequestOptions& o) {
   shape_request_t r{};
   for (const auto& p : frame.points) {
     r.x_mm.push_back(1e3 * p.position[0]);
@@ -29,7 +30,8 @@ shape_request_t request_of(const ContourFrame& frame, double noise, double deadl
   }
   r.point_count = int(frame.points.size());
   r.default_sigma_mm = 1e3 * noise;
-  r.deadline_s = deadline_s;
+  r.deadline_s = o.deadline_s;
+  r.starts = o.starts;
   r.bilateral = -1;
   return r;
 }
@@ -53,6 +55,14 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
     v.unidentified.push_back(std::move(names));
   }
   v.rms_mm = r.rms_mm, v.max_mm = r.max_mm, v.chi2_per_dof = r.chi2_per_dof;
+  v.weight = r.weight;
+  const size_t muscles = r.muscle.size();
+  for (size_t k = 0; k < r.alternative_weight.size(); ++k) {
+    Alternative other{r.alternative_weight[k], v.commands, 1e-3 * r.alternative_rms_mm[k], {}};
+    for (size_t i = 0; i < muscles && k * muscles + i < r.alternative_force_N.size(); ++i)
+      other.commands[i].force = r.alternative_force_N[k * muscles + i];
+    v.alternatives.push_back(std::move(other));
+  }
   v.iterations = r.ipopt_iterations, v.factorizations = r.factorizations, v.wall_s = r.wall_s;
   for (const auto& p : frame.points) v.measured.emplace_back(p.position[0], p.position[2]);
   for (size_t i = 0; i < r.line_x_mm.size(); ++i)
@@ -72,7 +82,7 @@ int run_request(const RequestOptions& o) {
   bool all = true;
   for (const auto& frame : measured.frames) {
     const auto reply = client.request(
-        request_of(frame, measured.noise, o.deadline_s), o.timeout_s, [&](const progress_t& p) {
+        request_of(frame, measured.noise, o), o.timeout_s, [&](const progress_t& p) {
           if (!o.json)
             fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
         });
@@ -110,6 +120,8 @@ Runner add_request(CLI::App& app) {
   add_measured_options(app, o->measured);
   app.add_option("--timeout-s", o->timeout_s, "How long to wait for each reply");
   app.add_option("--deadline-s", o->deadline_s, "Time the server may compute");
+  app.add_option("--starts", o->starts, "Descents, to find other answers that fit")
+      ->check(CLI::Range(0, 1000));
   app.add_option("--model", o->model, "Model to register with and to show in the picture");
   app.add_flag("--json", o->json, "One JSON object a frame on standard output");
   app.add_option("--out", o->out, "Folder for pictures and numbers");

@@ -8,6 +8,8 @@
 
 namespace genio {
 
+constexpr int most_starts = 1000;
+
 struct RequestWorker::State {
   /// The atlas first: no request should wait for it.
   explicit State(const Model& m) : workspace(m) {
@@ -61,6 +63,14 @@ void fill(const Model& model, const Answer& a, command_reply_t& reply) {
       reply.line_z_mm.push_back(1e3 * p[1]);
     }
   reply.line_count = int(reply.line_x_mm.size());
+  reply.weight = a.weight;
+  for (const Alternative& other : a.alternatives) {
+    reply.alternative_weight.push_back(other.weight);
+    reply.alternative_rms_mm.push_back(1e3 * other.rms);
+    for (const auto& c : other.commands) reply.alternative_force_N.push_back(c.force);
+  }
+  reply.alternative_count = int(reply.alternative_weight.size());
+  reply.alternative_force_count = int(reply.alternative_force_N.size());
 }
 
 }  // namespace
@@ -80,6 +90,8 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
       throw InputError("deadline_s must be 0 or above");
     if (request.bilateral < -1 || request.bilateral > 1)
       throw InputError("bilateral must be -1, 0 or 1");
+    if (request.starts < 0 || request.starts > most_starts)
+      throw InputError(fmt::format("starts must be 0 to {}", most_starts));
     const double noise = request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm
                                                       : default_noise(ContourFormat::csv);
     const Target target = make_target(model, frame_of(request), noise);
@@ -88,7 +100,8 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
     if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;
     options.progress = progress;
     options.cancelled = cancelled;
-    const Answer a = infer_from_starts(model, target, Prior{}, worker.state().workspace, options);
+    const Answer a = infer_from_starts(model, target, Prior{}, worker.state().workspace, options,
+                                       {request.starts});
     reply.status = to_string(a.status);
     reply.message = a.message;
     reply.verdict = to_string(a.verdict);

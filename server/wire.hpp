@@ -24,11 +24,11 @@ template <class T>
 struct WireLayout;
 template <>
 struct WireLayout<shape_request_t> {
-  static constexpr const char* fields = "lssnDDDDSddb";
+  static constexpr const char* fields = "lssnDDDDSddbi";
 };
 template <>
 struct WireLayout<command_reply_t> {
-  static constexpr const char* fields = "lssssnSDDDDDnSdddiidnDD";
+  static constexpr const char* fields = "lssssnSDDDDDnSdddiidnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {

@@ -52,6 +52,27 @@ expect 2 'was made with sequence = false' "$genio" invert --target four.csv --ou
 expect 0 'known from the run before' "$genio" invert --target four.csv --out four --resume
 [ "$(wc -l <four/results.jsonl)" -eq 4 ] || { echo "FAILED: resumed four/"; failed=1; }
 [ "$(head -c 500 four/results.jsonl)" = "$(head -c 500 cut)" ] || { echo "FAILED: a known answer changed"; failed=1; }
+# All frames together: a checkpoint, taken up; a movement that leaves commands to simulate.
+expect 0 '4 explained' "$genio" invert --target four.csv --smooth --threads 2 --out smooth
+[ -s smooth/checkpoint.json ] && [ "$(wc -l <smooth/results.jsonl)" -eq 4 ] || { echo "FAILED: smooth/"; failed=1; }
+rm smooth/results.jsonl; echo >smooth/results.jsonl
+expect 0 'all frames together' "$genio" invert --target four.csv --smooth --threads 2 --out smooth --resume
+echo '{"unknowns":[["x"]]}' >smooth/checkpoint.json; echo >smooth/results.jsonl
+expect 2 'is damaged' "$genio" invert --target four.csv --smooth --threads 2 --out smooth --resume
+expect 2 'one of them' "$genio" invert --target four.csv --smooth --sequence
+awk -F, -v OFS=, 'NR==1 {print $0, "time_s"; next} {print $0, 0.02}' "$example" >timed.csv
+expect 0 '"verdict":' "$genio" invert --target timed.csv --dynamic --from-rest --start-s 0 --knot-s 0.02 --step-s 0.004 --json --out movement
+[ -s movement/commands.csv ] && [ -s movement/motion/motion.pvd ] || { echo "FAILED: movement/"; failed=1; }
+expect 0 '"status":"converged"' "$genio" forward --dynamic --commands movement/commands.csv --duration 0.01 --json
+expect 2 'rise in time' "$genio" invert --target four.csv --dynamic --start-s 0
+expect 0 '"verdict":"explained"' "$genio" invert --target "$example" --full-space --json
+# Other programs' files: what they do not say is asked for.
+awk -F, 'NR>1 {printf "%s,%s\n", 5*$3, 600-5*$4}' "$example" >pixels.csv
+expect 2 'give --units or --mm-per-px' "$genio" invert --target pixels.csv
+expect 2 'give the same session' "$genio" invert --target pixels.csv --mm-per-px 0.2
+expect 2 'which way the face looks' "$genio" invert --target pixels.csv --mm-per-px 0.2 --registered
+printf 'FRAME\tTIME\tPOINT\tX\tY\n1\t0\t1\tabc\t2\n' >bad.tsv
+expect 2 "bad.tsv:2: fields X, Y: 'abc'" "$genio" invert --target bad.tsv
 printf 'muscle,mean,sd\nMH,0.3,0.01\n' >emg.csv
 expect 0 '"MH":0.' "$genio" invert --target "$example" --prior emg.csv --json
 printf 'muscle,mean,sd\nMX,0.3,0.01\n' >emg.csv
