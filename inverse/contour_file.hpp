@@ -58,6 +58,9 @@ struct ContourFile {
 /// InputError naming file, line and field.
 ContourFile read_contours(const std::string& path, const ReadOptions& options = {});
 
+/// Adds to the remarks which way the points of its curves run.
+void remark_order(ContourFile& file);
+
 /// The same file with x turned around.
 ContourFile mirrored(ContourFile file);
 

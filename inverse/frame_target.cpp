@@ -127,6 +127,7 @@ RegisteredFile register_file(const Model& model, ContourFile file, const std::st
   RegisteredFile result{std::move(left ? file : turned), left ? as_is : other};
   result.file.facing_known = true;
   result.file.remarks.push_back(said);
+  remark_order(result.file);
   return result;
 }
 

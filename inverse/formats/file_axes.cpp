@@ -144,7 +144,19 @@ ContourFile in_model_axes(RawContours raw, const std::string& path, const ReadOp
       if (facing == "right") p.position[0] = -p.position[0];
       if (up == "down") p.position[2] = -p.position[2];
     }
+  if (file.facing_known) remark_order(file);
   return std::move(file);
+}
+
+void remark_order(ContourFile& file) {
+  int back = 0, front = 0;  // frames whose last point lies behind the first, or before it
+  for (const ContourFrame& frame : file.frames) {
+    const auto& p = frame.points;
+    if (p.size() > 1) (p.back().position[0] > p.front().position[0] ? back : front) += 1;
+  }
+  if (back + front > 0 && curves(file))
+    file.remarks.push_back(fmt::format("points run from {} (which does not count)",
+                                       back > front ? "tip to root" : "root to tip"));
 }
 
 ContourFile mirrored(ContourFile file) {

@@ -131,6 +131,7 @@ TEST_F(Formats, PlainWideCsv) {
   const auto f = read_contours(write("p.csv", text), o);
   expect_line(f);
   EXPECT_TRUE(says(f, "units cm (by their extent)"));
+  EXPECT_TRUE(says(f, "from tip to root"));
 }
 
 TEST_F(Formats, AaaPolarBlocks) {
