@@ -45,6 +45,7 @@ BatchTissue StiffRegion::tissue(size_t b, EffectParameters p) const {
 BatchTissue StiffRegion::tissue_derivative(size_t b, EffectParameters p, int k) const {
   const Vec3 centre(p[1], p[2], p[3]);
   const double r2 = p[4] * p[4];
+  const Vec3 axis = k >= 1 && k <= 3 ? Vec3(Vec3::Unit(k - 1)) : Vec3(Vec3::Zero());
   const auto scale = [&](const Vec3& x) {
     const Vec3 d = x - centre;
     const double inside = 1 - d.squaredNorm() / r2;
@@ -59,7 +60,7 @@ BatchTissue StiffRegion::tissue_derivative(size_t b, EffectParameters p, int k) 
       case 6:
         return (p[0] - 1) * inside * inside * inside;
       default:
-        return slope * 2 * d[k - 1] / r2;
+        return slope * 2 * axis.dot(d) / r2;
     }
   };
   if (k >= 5) return scaled(points_[b], k == 5, k == 6, scale);
