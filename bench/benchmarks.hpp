@@ -43,13 +43,13 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
 Json service(const Model& model);
 
 /// One frame from the middle of each label (word) of a recording, each cold, or all frames, each
-/// from where the one before ended; registered by its palate trace. Throws InputError for files that
-/// cannot be read.
-Json ultrasound(const Model& model, const std::string& contours, const std::string& palate, bool all,
-                const Progress& progress);
+/// from where the one before ended; registered by its palate trace. Throws InputError for files
+/// that cannot be read.
+Json ultrasound(const Model& model, const std::string& contours, const std::string& palate,
+                bool all, const Progress& progress);
 
-/// `count` targets of the model itself, from rest to the edge of what muscles can do: random vectors
-/// of 2 to 5 muscles, the strongest from next to nothing to its maximum.
+/// `count` targets of the model itself, from rest to the edge of what muscles can do: random
+/// vectors of 2 to 5 muscles, the strongest from next to nothing to its maximum.
 Json reach(const Model& model, int count, const Progress& progress);
 
 /// The Grenoble tongue of `folder` asked to move 22 nodes 10 mm forward, where a stored run of the

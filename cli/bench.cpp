@@ -38,11 +38,9 @@ int run(const BenchOptions& o) {
     if (o.what == "inverse") {
       j = bench::inversion_cost(m, tell);
       j.update(bench::blind(read_description(o.model), o.sample > 0 ? o.sample : 20, tell));
-    } else if (o.what == "reach")
-      j = bench::reach(m, o.sample > 0 ? o.sample : 200, tell);
+    } else if (o.what == "reach") j = bench::reach(m, o.sample > 0 ? o.sample : 200, tell);
     else if (o.what == "gesture") j = bench::gesture(m, tell);
-    else if (o.what == "robustness")
-      j = bench::robustness(m, o.sample > 0 ? o.sample : 500, tell);
+    else if (o.what == "robustness") j = bench::robustness(m, o.sample > 0 ? o.sample : 500, tell);
     else if (o.what == "service") j = bench::service(m);
     else
       j = bench::ultrasound(m, needed(o.target, "--target", o.what),
@@ -64,7 +62,8 @@ Runner add_bench(CLI::App& app) {
       ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse", "reach",
                              "peer", "gesture", "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
-  app.add_option("--data", o->data, "grenoble, peer, dynamic, verification: folder of the ANSYS files");
+  app.add_option("--data", o->data,
+                 "grenoble, peer, dynamic, verification: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
   app.add_option("--sample", o->sample, "Random cases: robustness (500), reach (200), inverse (20)")

@@ -20,8 +20,9 @@ Checkpoint::Checkpoint(const std::string& folder, bool resume)
       known_.push_back(Eigen::Map<const Vector>(values.data(), Eigen::Index(values.size())));
     }
   } catch (const nlohmann::json::exception&) {
-    throw InputError(path_ + ": is damaged; expected {\"unknowns\": [[number, ...], ...]}. Remove it "
-                             "to start again");
+    throw InputError(path_ +
+                     ": is damaged; expected {\"unknowns\": [[number, ...], ...]}. Remove it "
+                     "to start again");
   }
 }
 

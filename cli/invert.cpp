@@ -122,9 +122,10 @@ int run(const InvertOptions& o) {
   if (together) {
     TogetherOptions how = o.together;
     how.threads = o.threads, how.resume = o.resume;
-    if (!open.empty()) answer_together(model, everything, offline, how, [&](const auto& result) {
-      if (!answers.contains(result["answer"]["frame"].template get<int>())) collect(result);
-    });
+    if (!open.empty())
+      answer_together(model, everything, offline, how, [&](const auto& result) {
+        if (!answers.contains(result["answer"]["frame"].template get<int>())) collect(result);
+      });
   } else {
     in_processes(
         workers,
@@ -164,8 +165,7 @@ Runner add_invert(CLI::App& app) {
                "All frames as one movement, with inertia and viscosity");
   app.add_option("--knot-s", o->together.knot_s, "--dynamic: between bends of the commands [s]")
       ->capture_default_str();
-  app.add_option("--step-s", o->together.step_s, "--dynamic: time step [s]")
-      ->capture_default_str();
+  app.add_option("--step-s", o->together.step_s, "--dynamic: time step [s]")->capture_default_str();
   app.add_option("--start-s", o->together.start_s,
                  "--dynamic: when the movement starts [s] (0.1 s before the first frame)");
   app.add_flag("--from-rest", o->together.from_rest,

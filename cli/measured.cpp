@@ -51,10 +51,9 @@ RegisteredFile registered_by(const Model& model, ContourFile file, const Measure
   palate.format = o.palate_sensor.empty() && o.read.format == "ema" ? "auto" : o.read.format;
   RegisteredFile result = register_file(model, std::move(file), o.palate, palate);
   const Registration& r = result.registration;
-  result.file.remarks.push_back(
-      fmt::format("registered by the palate: scale {:.3f}, tilt {:.1f} degrees, palate RMS {:.2f} mm",
-                  r.transform.scale, r.transform.angle * 180 / std::numbers::pi,
-                  1e3 * r.palate_rms));
+  result.file.remarks.push_back(fmt::format(
+      "registered by the palate: scale {:.3f}, tilt {:.1f} degrees, palate RMS {:.2f} mm",
+      r.transform.scale, r.transform.angle * 180 / std::numbers::pi, 1e3 * r.palate_rms));
   if (r.palate_rms > poor_fit || std::abs(std::log(r.transform.scale)) > poor_scale)
     result.file.remarks.push_back(
         "THE REGISTRATION IS POOR: is the palate of the same session, units and axes as said?");
@@ -76,10 +75,13 @@ void add_measured_options(CLI::App& app, MeasuredOptions& o) {
   app.add_option("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say")
       ->check(CLI::PositiveNumber);
   app.add_option("--palate", o.palate, "Palate trace of the same session");
-  app.add_option("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there");
+  app.add_option("--palate-sensor", o.palate_sensor,
+                 "EMA: the sensor swept along the palate there");
   app.add_flag("--registered", o.registered, "The file is in the model's frame already");
   app.add_option("--frames", o.frames, "A-B, counted from 1");
-  app.add_option("--noise-mm", o.noise_mm, "Measurement noise (default 0.5 for CSV and EMA, 1 for scans, 1.5 for ultrasound)");
+  app.add_option(
+      "--noise-mm", o.noise_mm,
+      "Measurement noise (default 0.5 for CSV and EMA, 1 for scans, 1.5 for ultrasound)");
 }
 
 Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model) {

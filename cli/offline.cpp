@@ -55,8 +55,7 @@ void answer_frames(const Model& model, const std::vector<Frame>& frames, const O
         infer.start = told_unknowns(
             before, unknowns(model, prior, infer.bilateral.value_or(frame.target.midsagittal())));
       if (o.sequence && infer.start.size() > 0) {
-        prior.before =
-            Prior::Before{infer.start, walk_sd(prior, last_time, frame.contour.time_s)};
+        prior.before = Prior::Before{infer.start, walk_sd(prior, last_time, frame.contour.time_s)};
       }
       answer = infer_from_starts(model, frame.target, prior, ws, infer, o.starts);
       view = view_of(model, frame.target, answer, frame_title(frame.contour));

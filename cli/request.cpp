@@ -81,8 +81,8 @@ int run_request(const RequestOptions& o) {
   Client client(choose_url(o.url));
   bool all = true;
   for (const auto& frame : measured.frames) {
-    const auto reply = client.request(
-        request_of(frame, measured.noise, o), o.timeout_s, [&](const progress_t& p) {
+    const auto reply =
+        client.request(request_of(frame, measured.noise, o), o.timeout_s, [&](const progress_t& p) {
           if (!o.json)
             fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
         });

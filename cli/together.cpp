@@ -35,10 +35,11 @@ void send_frame(const Model& model, const Frame& frame, const Answer& answer,
 
 /// The commands at a time between knots, spread and intervals linear too.
 std::vector<CommandEstimate> commands_at(const MotionAnswer& a, double time) {
-  const auto after = size_t(std::lower_bound(a.knots_s.begin(), a.knots_s.end(), time - 1e-9) -
-                            a.knots_s.begin());
+  const auto after =
+      size_t(std::lower_bound(a.knots_s.begin(), a.knots_s.end(), time - 1e-9) - a.knots_s.begin());
   const size_t j = std::clamp<size_t>(after, 1, a.knots_s.size() - 1);
-  const double s = std::clamp((time - a.knots_s[j - 1]) / (a.knots_s[j] - a.knots_s[j - 1]), 0., 1.);
+  const double s =
+      std::clamp((time - a.knots_s[j - 1]) / (a.knots_s[j] - a.knots_s[j - 1]), 0., 1.);
   std::vector<CommandEstimate> result = a.commands[j];
   for (size_t c = 0; c < result.size(); ++c) {
     const CommandEstimate& before = a.commands[j - 1][c];

@@ -15,7 +15,8 @@ struct TogetherOptions {
 };
 
 /// As answer_frames(), for all of them at once. With a folder in `options`, progress is kept in
-/// checkpoint.json there and taken up by `resume`; a movement leaves commands.csv (for `genio forward
+/// checkpoint.json there and taken up by `resume`; a movement leaves commands.csv (for `genio
+/// forward
 /// --dynamic --commands`) and motion/.
 void answer_together(const Model& model, const std::vector<Frame>& frames,
                      const OfflineOptions& options, const TogetherOptions& how, const Send& send);

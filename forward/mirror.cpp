@@ -93,8 +93,8 @@ bool same_forces(const Model& half, const Mirror& mirror, const Positions& x, co
     const int whole = mirror.right[a];
     const bool middle = std::abs(half.mesh.nodes[a][1]) < on_plane;
     for (int i = 0; i < 3; ++i)
-      if (!(middle && i == 1) && std::abs(g[3 * Eigen::Index(a) + i] -
-                                          (middle ? 0.5 : 1) * f[3 * whole + i]) > tolerance)
+      if (!(middle && i == 1) &&
+          std::abs(g[3 * Eigen::Index(a) + i] - (middle ? 0.5 : 1) * f[3 * whole + i]) > tolerance)
         return false;
   }
   return true;

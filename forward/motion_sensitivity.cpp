@@ -117,13 +117,12 @@ bool Differentiation::advance(const Instant& from, const Instant& to, Eigen::Ind
 
   Matrix u = u0 + dt * v0;  // a guess for what viscous forces add
   for (int i = 0; i < most_iterations; ++i) {
-    const Matrix right =
-        known + viscous_slope(model_, x, v, p, f * u + s_.alpha_f * u0, scratch_);
-    const Matrix next =
-        expand(model_.dofs, ws_.cholesky.solve(reduce(model_.dofs, right)) / f);
+    const Matrix right = known + viscous_slope(model_, x, v, p, f * u + s_.alpha_f * u0, scratch_);
+    const Matrix next = expand(model_.dofs, ws_.cholesky.solve(reduce(model_.dofs, right)) / f);
     const double off = (next - u).norm(), size = next.norm();
     u = next;
-    // The tangent lacks only the viscous slope, some hundredths of it: each iteration gains as much.
+    // The tangent lacks only the viscous slope, some hundredths of it: each iteration gains as
+    // much.
     if (off * contraction <= accuracy_ * size) break;
   }
   state.a.leftCols(active) = by_u * u + a_known;
@@ -141,8 +140,8 @@ Vector Controls::weights(double time) const {
   if (after == 0) w[0] = 1;
   else if (after == n) w[n - 1] = 1;
   else {
-    const double s = (time - knots[size_t(after - 1)]) /
-                     (knots[size_t(after)] - knots[size_t(after - 1)]);
+    const double s =
+        (time - knots[size_t(after - 1)]) / (knots[size_t(after)] - knots[size_t(after - 1)]);
     w[after - 1] = 1 - s, w[after] = s;
   }
   return w;
@@ -176,8 +175,9 @@ std::vector<Matrix> motion_sensitivity(const Model& model, const Controls& contr
                                        const Matrix& start, const std::vector<double>& when,
                                        Workspace& ws, double accuracy) {
   if (find_effect(model, "activation_dynamics"))
-    throw InputError(model.name + ": activation_dynamics lets forces lag behind commands; dynamic "
-                                  "inversion finds the forces themselves, so leave it out");
+    throw InputError(model.name +
+                     ": activation_dynamics lets forces lag behind commands; dynamic "
+                     "inversion finds the forces themselves, so leave it out");
   const Eigen::Index n = model.rest.size(), count = controls.unknowns();
   State state{Matrix::Zero(n, count), Matrix::Zero(n, count), Matrix::Zero(n, count)};
   if (start.cols() > 0) state.u = start;
@@ -192,8 +192,8 @@ std::vector<Matrix> motion_sensitivity(const Model& model, const Controls& contr
     // Knots from the next one on have had no say yet.
     const auto begun = std::lower_bound(controls.knots.begin(), controls.knots.end(), now - 1e-12) -
                        controls.knots.begin();
-    const auto active = std::min(count, (Eigen::Index(begun) + 1) *
-                                            Eigen::Index(controls.combinations.size()));
+    const auto active =
+        std::min(count, (Eigen::Index(begun) + 1) * Eigen::Index(controls.combinations.size()));
     if (!d.advance(instants[k - 1], instants[k], active, state)) return {};
     for (size_t i = 0; i < when.size(); ++i) {
       if (when[i] >= before && when[i] < now)

@@ -9,8 +9,8 @@ namespace genio {
 /// commands and the other unknowns at what the prior expects; then const.
 struct Atlas {
   struct Entry {
-    Vector unknowns;  ///< z
-    Positions shape;  ///< [m]
+    Vector unknowns;    ///< z
+    Positions shape;    ///< [m]
     Matrix by_unknown;  ///< its derivative, 3 n x unknowns
   };
   std::vector<Entry> entries;

@@ -75,7 +75,8 @@ void compare_curve(const CurvePoint& point, const TongueLine& line, const Positi
   rows.point(std::abs(c.distance), Vec3(foot[0], 0, foot[1]));
 }
 
-void compare_flesh(const FleshPoint& point, const Positions& x, const MovedTarget& moved, Builder& rows) {
+void compare_flesh(const FleshPoint& point, const Positions& x, const MovedTarget& moved,
+                   Builder& rows) {
   const Vec3 q = moved(point.position), on = point.on(x);
   Vec3 off = on - q;
   for (int i = 0; i < 3; ++i) {

@@ -150,7 +150,10 @@ std::vector<Eigen::Triplet<double>> Comparison::curvature(const Positions& x, co
       if (std::isnan(off[i])) continue;
       ++row;
       const size_t count = point.at.size();
-      Distance d{off[i], Vector(count + 3), Matrix::Zero(Eigen::Index(count + 3), Eigen::Index(count + 3)), {}};
+      Distance d{off[i],
+                 Vector(count + 3),
+                 Matrix::Zero(Eigen::Index(count + 3), Eigen::Index(count + 3)),
+                 {}};
       for (size_t k = 0; k < count; ++k) {
         d.first[Eigen::Index(k)] = point.at[k].second;
         d.at.push_back(3 * point.at[k].first + i);
@@ -166,8 +169,8 @@ std::vector<Eigen::Triplet<double>> Comparison::curvature(const Positions& x, co
   }
   for (const auto& point : target_.surface) {
     const auto& corners = residuals.gradient[row++];
-    const Distance d = triangle_distance(
-        point, {corners[0].first, corners[1].first, corners[2].first}, x, moved);
+    const Distance d =
+        triangle_distance(point, {corners[0].first, corners[1].first, corners[2].first}, x, moved);
     add(bend(d, point.sigma, dof), d.at, entries);
   }
   return entries;

@@ -40,13 +40,13 @@ struct DescentResult {
   Vector u;             ///< best point; empty where there is none
   double value = 0;
   std::shared_ptr<LocalProblem> local;  ///< at u
-  int iterations = 0;         ///< local problems
-  int solver_iterations = 0;  ///< Ipopt's in all of them
+  int iterations = 0;                   ///< local problems
+  int solver_iterations = 0;            ///< Ipopt's in all of them
 };
 
-/// Local problems one after another, each minimised by Ipopt within bounds and a trust region, whose
-/// size follows how well they foretold the objective (Conn, Gould & Toint 2000, algorithm 6.1.1).
-/// Converged when the next one promises less than the tolerance.
+/// Local problems one after another, each minimised by Ipopt within bounds and a trust region,
+/// whose size follows how well they foretold the objective (Conn, Gould & Toint 2000,
+/// algorithm 6.1.1). Converged when the next one promises less than the tolerance.
 DescentResult descend(MisfitProblem& problem, const Vector& start, const DescentOptions& options);
 
 }  // namespace genio

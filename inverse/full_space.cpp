@@ -12,9 +12,9 @@ namespace genio {
 namespace {
 
 // Unknowns and constraints near 1: displacements in mm, forces in mN.
-constexpr double length = 1e-3;     // [m]
-constexpr double force_unit = 1e-3; // [N]
-constexpr double longest = 1e-6;    // displacement of differences [m]
+constexpr double length = 1e-3;      // [m]
+constexpr double force_unit = 1e-3;  // [N]
+constexpr double longest = 1e-6;     // displacement of differences [m]
 constexpr int most_iterations = 100;
 constexpr double near_enough = 1;  // fall of the objective still to be had
 
@@ -66,8 +66,8 @@ class FullSpace final : public NonlinearProgram {
     if (!evaluate(v)) return false;
     g.resize(v.size());
     g << length * model_.dofs.reduce(misfit_gradient(residuals_, x_.size())),
-        prior_.gradient(commands(v)) + by_pose_.transpose() * (residuals_.pose.transpose() *
-                                                               residuals_.values);
+        prior_.gradient(commands(v)) +
+            by_pose_.transpose() * (residuals_.pose.transpose() * residuals_.values);
     return true;
   }
   int constraints() const override { return int(free_); }
@@ -189,7 +189,8 @@ void FullSpace::make_pattern() {
 
 void FullSpace::add_nodal(int i, int j, double value) {
   const int nodal = int(x_.size());
-  const int a = i < nodal ? model_.dofs.unknown(i) : -1, b = j < nodal ? model_.dofs.unknown(j) : -1;
+  const int a = i < nodal ? model_.dofs.unknown(i) : -1,
+            b = j < nodal ? model_.dofs.unknown(j) : -1;
   if (i < nodal && j < nodal) {
     if (a >= 0 && b >= 0) add(a, b, length * length * value);
   } else if (i >= nodal && j >= nodal) {
@@ -219,8 +220,7 @@ bool FullSpace::hessian(const Vector& v, double factor, const Vector& multiplier
     for (const auto& [i, gi] : slope)
       for (const auto& [j, gj] : slope) add_nodal(i, j, factor * gi * gj);
   }
-  for (const auto& e :
-       comparison_.curvature(x_, head_pose(commands_, commands(v)), residuals_))
+  for (const auto& e : comparison_.curvature(x_, head_pose(commands_, commands(v)), residuals_))
     add_nodal(e.row(), e.col(), factor * e.value());
   const Matrix of_prior = factor * prior_.hessian();
   // Equilibrium: mu . F has the second derivatives -(dK along mu) and (dP along mu), as third
@@ -233,19 +233,18 @@ bool FullSpace::hessian(const Vector& v, double factor, const Vector& multiplier
     stiffness(model_, up, p_, k_), stiffness(model_, down, p_, other_);
     k_.add(other_, -1);
     reduced_.assign(k_);
-    each_lower([&](int row, int column, double d) {
-      add(row, column, -length * length * d / (2 * h));
-    });
-    pulled = (command_pulls(model_, commands_, up, p_) -
-              command_pulls(model_, commands_, down, p_)) / (2 * h);
+    each_lower(
+        [&](int row, int column, double d) { add(row, column, -length * length * d / (2 * h)); });
+    pulled =
+        (command_pulls(model_, commands_, up, p_) - command_pulls(model_, commands_, down, p_)) /
+        (2 * h);
   }
   const Matrix changes = pull_changes(model_, commands_, commands(v), x_, p_, along);
   for (Eigen::Index c = 0; c < count_; ++c) {
     const Vector row = length * model_.dofs.reduce(pulled.col(c));
     for (Eigen::Index r = 0; r < free_; ++r) add(int(free_ + c), int(r), row[r]);
     for (Eigen::Index d = 0; d <= c; ++d)
-      add(int(free_ + c), int(free_ + d),
-          of_prior(c, d) + 0.5 * (changes(c, d) + changes(d, c)));
+      add(int(free_ + c), int(free_ + d), of_prior(c, d) + 0.5 * (changes(c, d) + changes(d, c)));
   }
   for (size_t k = 0; k < values.size(); ++k) values[k] = hessian_.valuePtr()[k];
   return true;
@@ -253,8 +252,8 @@ bool FullSpace::hessian(const Vector& v, double factor, const Vector& multiplier
 
 }  // namespace
 
-Answer infer_full_space(const Model& model, const Target& target, const Prior& prior,
-                        Workspace& ws, const InferOptions& options) {
+Answer infer_full_space(const Model& model, const Target& target, const Prior& prior, Workspace& ws,
+                        const InferOptions& options) {
   if (target.empty()) throw InputError("the target has no points");
   const Comparison comparison(model, target);
   auto commands = unknowns(model, prior, options.bilateral.value_or(target.midsagittal()));
@@ -269,8 +268,7 @@ Answer infer_full_space(const Model& model, const Target& target, const Prior& p
   how.max_iterations = most_iterations;
   how.tolerance = 1e-6, how.barrier = 1e-2, how.push = 1e-3;
   const ProgramResult r =
-      solve(program,
-            program.start(near.shape, z.cwiseMax(terms.lower).cwiseMin(terms.upper)), how);
+      solve(program, program.start(near.shape, z.cwiseMax(terms.lower).cwiseMin(terms.upper)), how);
   Answer answer;
   answer.iterations = near.iterations + r.iterations;
   if (program.stop() != InferStatus::converged || !r.solved) {

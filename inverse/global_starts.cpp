@@ -8,8 +8,8 @@ namespace genio {
 namespace {
 
 constexpr int evaluations = 600;
-constexpr double apart = 0.05;     // of an unknown, between distinct valleys
-constexpr double reach = 0.6;      // activation: beyond it the stand-in knows nothing
+constexpr double apart = 0.05;  // of an unknown, between distinct valleys
+constexpr double reach = 0.6;   // activation: beyond it the stand-in knows nothing
 
 struct Found {
   double value;
@@ -36,8 +36,8 @@ struct StandIn {
     const double value = 0.5 * r.values.squaredNorm() + prior.value(z);
     seen.push_back({value, z});
     if (!gradient.empty()) {
-      const Matrix j = residual_jacobian(r, shape.derivative(z)) +
-                       r.pose * pose_derivative(unknowns);
+      const Matrix j =
+          residual_jacobian(r, shape.derivative(z)) + r.pose * pose_derivative(unknowns);
       const Vector g = j.transpose() * r.values + prior.gradient(z);
       for (size_t i = 0; i < open.size(); ++i) gradient[i] = g[open[i]];
     }
@@ -99,8 +99,7 @@ Matrix AtlasShape::derivative(const Vector& z) const {
     const auto& knots = knots_[i];
     const auto at = Eigen::Index(i);
     const Weights w = weights(knots, z[at], true);
-    d.col(at) = w.a * (*knots[w.knot].shape - base) +
-                w.slope_a * knots[w.knot].by_unknown->col(at);
+    d.col(at) = w.a * (*knots[w.knot].shape - base) + w.slope_a * knots[w.knot].by_unknown->col(at);
     if (knots.size() > 1)
       d.col(at) += w.b * (*knots[w.knot + 1].shape - base) +
                    w.slope_b * knots[w.knot + 1].by_unknown->col(at);
@@ -133,11 +132,9 @@ std::vector<Atlas::Entry> valleys(const Atlas& atlas, const Comparison& comparis
   global.set_population(4);
   global.set_maxeval(evaluations);
   global.set_lower_bounds(lower), global.set_upper_bounds(upper);
-  global.set_min_objective(
-      [](const std::vector<double>& v, std::vector<double>& g, void* data) {
-        return (*static_cast<StandIn*>(data))(v, g);
-      },
-      &stand_in);
+  global.set_min_objective([](const std::vector<double>& v, std::vector<double>& g,
+                              void* data) { return (*static_cast<StandIn*>(data))(v, g); },
+                           &stand_in);
   double value = 0;
   try {
     global.optimize(start, value);

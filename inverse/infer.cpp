@@ -73,8 +73,8 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
                                         : InferStatus::failed;
   answer.message = optimum.message;
   if (optimum.converged) {
-    const auto* point = options.finite_differences ? objective.at(start)
-                                                   : objective.derivatives(start);
+    const auto* point =
+        options.finite_differences ? objective.at(start) : objective.derivatives(start);
     if (point) {
       tell(*point, answer);
       if (!options.finite_differences)

@@ -21,8 +21,8 @@ struct InferOptions {
   ModelError model_error;                ///< widens what the posterior claims
   Vector start;                          ///< activations to start from; empty: rest
   std::optional<Positions> start_shape;  ///< the equilibrium shape near `start`
-  /// Its derivative (3 n x unknowns), where an earlier solve left it: then `start_shape` is taken to
-  /// be the very equilibrium of `start`, and the first step costs no mechanics.
+  /// Its derivative (3 n x unknowns), where an earlier solve left it: then `start_shape` is taken
+  /// to be the very equilibrium of `start`, and the first step costs no mechanics.
   Matrix start_by_unknown;
   bool rough_start = false;  ///< `start` is only a guess: go near under more effort first
   /// Positions and commands together as unknowns (infer_full_space()); to check the default by.
@@ -49,8 +49,8 @@ struct CommandEstimate {
   double low = 0, high = 0;     ///< 90 % interval; one-sided where the force is at a bound
   double information_bits = 0;  ///< binary logarithm of the prior's over the posterior's sd
   bool at_lower = false, at_upper = false, fixed = false;
-  /// Where a bound presses: how much the objective (half a chi-square) would fall a unit of z beyond
-  /// it, the bound's multiplier.
+  /// Where a bound presses: how much the objective (half a chi-square) would fall a unit of z
+  /// beyond it, the bound's multiplier.
   double multiplier = 0;
 };
 
@@ -92,7 +92,8 @@ struct Answer {
 };
 
 /// The forces within [0, maximum] that minimise 1/2 sum (distance / sigma)^2 + 1/2 sum
-/// (activation / effort_sd)^2, see descend(), and the Laplace posterior about them. Throws InputError for an empty target.
+/// (activation / effort_sd)^2, see descend(), and the Laplace posterior about them. Throws
+/// InputError for an empty target.
 ///
 /// This is one descent from one start; multi_start.hpp has the search for all that fit.
 Answer infer(const Model& model, const Target& target, const Prior& prior, Workspace& ws,

@@ -58,8 +58,7 @@ class Adapter final : public Ipopt::TNLP {
   }
   bool eval_jac_g(Index n, const Number* x, bool, Index, Index count, Index* rows, Index* columns,
                   Number* values) override {
-    if (values)
-      return program_.jacobian(Map<const Vector>(x, n), std::span(values, size_t(count)));
+    if (values) return program_.jacobian(Map<const Vector>(x, n), std::span(values, size_t(count)));
     place(jacobian_, rows, columns);
     return true;
   }

@@ -19,11 +19,11 @@ struct LocalShape {
   std::vector<int> which;  ///< the unknowns it follows
   Positions x;
   HeadPose pose;
-  std::vector<int> nodes;   ///< of the target
-  std::vector<int> row;     ///< of each node in by_unknown, over 3; -1: not the target's
-  Matrix by_unknown;        ///< d positions of `nodes` / du
-  Matrix pose_by_unknown;   ///< 3 x count
-  Matrix curvature;         ///< second derivative of the misfit that the mechanics add; may be empty
+  std::vector<int> nodes;  ///< of the target
+  std::vector<int> row;    ///< of each node in by_unknown, over 3; -1: not the target's
+  Matrix by_unknown;       ///< d positions of `nodes` / du
+  Matrix pose_by_unknown;  ///< 3 x count
+  Matrix curvature;        ///< second derivative of the misfit that the mechanics add; may be empty
   Matrix target_curvature;  ///< that of the target itself at the anchor, for the Hessian
 };
 
@@ -36,8 +36,9 @@ struct QuadraticTerm {
   Vector gradient(const Vector& u) const { return rows.transpose() * (rows * u - values); }
 };
 
-/// sum over shapes of 1/2 |residuals(x + X d, pose + P d)|^2 + 1/2 d.C d, plus the prior, d = u less
-/// the anchor. Value and gradient are exact at the anchor; residuals are those of the target itself.
+/// sum over shapes of 1/2 |residuals(x + X d, pose + P d)|^2 + 1/2 d.C d, plus the prior, d = u
+/// less the anchor. Value and gradient are exact at the anchor; residuals are those of the target
+/// itself.
 class LocalProblem final : public NonlinearProgram {
  public:
   LocalProblem(std::vector<LocalShape> shapes, QuadraticTerm prior, Vector anchor);

@@ -21,9 +21,9 @@ void check(const Model& model, const std::vector<MotionFrame>& frames, const Pri
   for (size_t k = 0; k < frames.size(); ++k) {
     if (frames[k].target.empty()) throw InputError(fmt::format("frame {}: has no points", k + 1));
     if (!(frames[k].time_s > last))
-      throw InputError(fmt::format(
-          "frame {}: time {} s; a movement starts at 0, and its frames rise in time", k + 1,
-          frames[k].time_s));
+      throw InputError(
+          fmt::format("frame {}: time {} s; a movement starts at 0, and its frames rise in time",
+                      k + 1, frames[k].time_s));
     last = frames[k].time_s;
   }
   if (prior.head_pose)
@@ -55,7 +55,8 @@ Vector static_start(const Model& model, const std::vector<MotionFrame>& frames, 
   Vector u = Vector::Zero(problem.controls().unknowns());
   if (answers.empty()) return u;
   for (size_t j = 0; j < knots.size(); ++j) {
-    const auto after = size_t(std::lower_bound(times.begin(), times.end(), knots[j]) - times.begin());
+    const auto after =
+        size_t(std::lower_bound(times.begin(), times.end(), knots[j]) - times.begin());
     Vector z = answers[std::min(after, answers.size() - 1)];
     if (after > 0 && after < answers.size()) {
       const double s = (knots[j] - times[after - 1]) / (times[after] - times[after - 1]);
@@ -67,8 +68,8 @@ Vector static_start(const Model& model, const std::vector<MotionFrame>& frames, 
 }
 
 /// Posterior of all knots together, within bounds, widened by the model's error.
-void summarise(MotionProblem& problem, LocalProblem& local, const Vector& u, const ModelError& error,
-               MotionAnswer& answer) {
+void summarise(MotionProblem& problem, LocalProblem& local, const Vector& u,
+               const ModelError& error, MotionAnswer& answer) {
   const auto n = Eigen::Index(problem.commands().size());
   std::vector<Eigen::Index> open;
   for (Eigen::Index i = 0; i < u.size(); ++i)
@@ -93,22 +94,19 @@ void summarise(MotionProblem& problem, LocalProblem& local, const Vector& u, con
     residuals.segment(first, count) = r.values;
     first += count;
   }
-  LocalPosterior narrow{{u(open), slope(open), h(open, open), problem.lower()(open),
-                         problem.upper()(open)},
-                        open};
+  LocalPosterior narrow{
+      {u(open), slope(open), h(open, open), problem.lower()(open), problem.upper()(open)}, open};
   std::vector<Eigen::Index> free;
   for (size_t i = 0; i < open.size(); ++i) {
     const int side = pressed(narrow.density, Eigen::Index(i));
     if (side == 0) narrow.density.slope[Eigen::Index(i)] = 0, free.push_back(open[i]);
   }
-  const Matrix samples =
-      sample(widened(narrow, j(Eigen::all, open), wide).density, sample_count);
+  const Matrix samples = sample(widened(narrow, j(Eigen::all, open), wide).density, sample_count);
   const Matrix prior_precision =
       Matrix(problem.prior().rows.transpose() * problem.prior().rows)(open, open);
-  const Matrix believed =
-      sample({u(open), Vector::Zero(Eigen::Index(open.size())), prior_precision,
-              problem.lower()(open), problem.upper()(open)},
-             sample_count);
+  const Matrix believed = sample({u(open), Vector::Zero(Eigen::Index(open.size())), prior_precision,
+                                  problem.lower()(open), problem.upper()(open)},
+                                 sample_count);
   answer.commands.resize(answer.knots_s.size());
   for (size_t knot = 0, f = 0; knot < answer.knots_s.size(); ++knot)
     for (Eigen::Index c = 0; c < n; ++c) {
@@ -120,15 +118,14 @@ void summarise(MotionProblem& problem, LocalProblem& local, const Vector& u, con
         e = estimate(command, u[i], problem.lower()[i], problem.upper()[i],
                      samples.row(Eigen::Index(f)), believed.row(Eigen::Index(f)));
         const int side = pressed(narrow.density, Eigen::Index(f));
-        e.at_lower = side < 0, e.at_upper = side > 0;
+        e.at_lower = side<0, e.at_upper = side> 0;
         ++f;
       }
       answer.commands[knot].push_back(std::move(e));
     }
   const Matrix j_free = j(Eigen::all, free);
   const double used =
-      free.empty() ? 0.0
-                   : (j_free * Matrix(h(free, free)).llt().solve(j_free.transpose())).trace();
+      free.empty() ? 0.0 : (j_free * Matrix(h(free, free)).llt().solve(j_free.transpose())).trace();
   const FitTest test = test_fit(residuals, left + Matrix::Identity(rows, rows), used,
                                 slope(open).dot(Matrix(h(open, open)).llt().solve(slope(open))));
   answer.chi2_per_dof = test.chi2_per_dof, answer.verdict = test.verdict;
@@ -156,9 +153,10 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
   const auto all = [&](auto what) { return std::all_of(frames.begin(), frames.end(), what); };
   o.infer.bilateral = options.infer.bilateral.value_or(
       all([](const MotionFrame& f) { return f.target.midsagittal(); }));
-  TongueState* half = all([&](const MotionFrame& f) { return is_symmetric(f.target, prior, o.infer); })
-                          ? ws.half(prior)
-                          : nullptr;
+  TongueState* half =
+      all([&](const MotionFrame& f) { return is_symmetric(f.target, prior, o.infer); })
+          ? ws.half(prior)
+          : nullptr;
   TongueState& tongue = half ? *half : ws.whole();
   std::vector<MotionFrame> own = frames;
   if (half)
@@ -169,9 +167,9 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
   const auto n = Eigen::Index(problem.commands().size());
   answer.knots_s = problem.controls().knots;
   Vector start(problem.controls().unknowns());
-  const bool known = o.known.size() == answer.knots_s.size() &&
-                     std::all_of(o.known.begin(), o.known.end(),
-                                 [&](const Vector& z) { return z.size() == n; });
+  const bool known =
+      o.known.size() == answer.knots_s.size() &&
+      std::all_of(o.known.begin(), o.known.end(), [&](const Vector& z) { return z.size() == n; });
   int in_starts = 0;
   if (known)
     for (size_t j = 0; j < o.known.size(); ++j) start.segment(n * Eigen::Index(j), n) = o.known[j];
@@ -194,8 +192,8 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
     if (again) {
       answer.trajectory = problem.trajectory(), answer.rms = problem.rms();
       for (size_t k = 0; k < own.size(); ++k)
-        answer.frames.push_back({own[k].time_s, shape_at(answer.trajectory, own[k].time_s),
-                                 problem.residuals()[k]});
+        answer.frames.push_back(
+            {own[k].time_s, shape_at(answer.trajectory, own[k].time_s), problem.residuals()[k]});
       answer.unknowns = by_point(r.u, n);
       summarise(problem, *r.local, r.u, o.infer.model_error, answer);
     } else {
@@ -203,8 +201,8 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
     }
   } else if (problem.stopped()) {
     answer.status = problem.stop_reason();
-    answer.message =
-        answer.status == InferStatus::deadline ? "the deadline passed" : "cancelled by the requester";
+    answer.message = answer.status == InferStatus::deadline ? "the deadline passed"
+                                                            : "cancelled by the requester";
   }
   answer.simulations = problem.simulations();
   answer.factorizations = tongue.workspace.cholesky.factorizations() - before;

@@ -45,8 +45,8 @@ void MotionProblem::set_prior(const Prior& prior) {
   for (size_t c = 0; c < commands_.size(); ++c) {
     const Command& command = commands_[c];
     const auto at = Eigen::Index(c);
-    prior_.lower[at] = prior_.upper[at] =
-        command.kind == Command::Kind::muscle ? 0
+    prior_.lower[at] = prior_.upper[at] = command.kind == Command::Kind::muscle
+                                              ? 0
                                               : base_[command.parameters.front()] / command.scale;
   }
 }
@@ -71,8 +71,7 @@ double MotionProblem::rms() const {
 }
 
 std::optional<Equilibrium> MotionProblem::start_of(const Vector& u) {
-  const Parameters p =
-      apply_commands(commands_, u.head(Eigen::Index(commands_.size())), base_);
+  const Parameters p = apply_commands(commands_, u.head(Eigen::Index(commands_.size())), base_);
   if (start_ && start_->parameters == p) return start_;
   const Equilibrium e =
       solve_equilibrium(model_, p, start_ ? start_->x : model_.rest, sensitivity_ws_);

@@ -1,6 +1,7 @@
 #include "inverse/multi_start.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "inverse/full_space.hpp"
@@ -47,8 +48,7 @@ std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, cons
   if (!near.empty()) starts.push_back(*near.front());
   for (auto& valley : valleys(atlas, comparison, commands, terms, count / 2))
     if (int(starts.size()) < count) starts.push_back(std::move(valley));
-  for (size_t k = 1; k < near.size() && int(starts.size()) < count; ++k)
-    starts.push_back(*near[k]);
+  for (size_t k = 1; k < near.size() && int(starts.size()) < count; ++k) starts.push_back(*near[k]);
   const int drawn = count - int(starts.size());
   const Matrix draws = prior_draws(terms, std::max(0, drawn));
   for (int k = 0; k < drawn; ++k) starts.push_back({draws.col(k), {}, {}});
@@ -82,16 +82,22 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
   const bool given = options.start.size() > 0;
   const int most = !until_explained ? start_options.starts : given ? warm_patience : patience;
   std::vector<Atlas::Entry> starts;
-  if (given) starts.push_back({options.start, options.start_shape.value_or(Positions()),
-                              options.start_by_unknown});
+  if (given)
+    starts.push_back(
+        {options.start, options.start_shape.value_or(Positions()), options.start_by_unknown});
   std::vector<Answer> found;
   Answer last;
-  double wall = 0;
+  const auto started = std::chrono::steady_clock::now();
+  const auto wall = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  };
   int iterations = 0, factorizations = 0, solves = 0;
   for (int k = 0; k < most; ++k) {
-    if (k == int(given))  // not before they are needed
-      for (Atlas::Entry& guess : guesses(model, target, prior, tongue, options, most - k))
-        starts.push_back(std::move(guess));
+    if (size_t(k) == starts.size()) {  // not before they are needed: the nearest, then all others
+      const bool first = k == int(given);
+      auto more = guesses(model, target, prior, tongue, options, first ? 1 : most - int(given));
+      starts.insert(starts.end(), more.begin() + (first ? 0 : 1), more.end());
+    }
     const Atlas::Entry& start = starts[size_t(k)];
     InferOptions here = options;
     here.start = start.unknowns;
@@ -99,17 +105,17 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     if (start.shape.size() > 0) here.start_shape = start.shape;
     here.start_by_unknown = start.by_unknown;
     here.rough_start = start.shape.size() == 0;
-    if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - wall) <= 0) break;
+    if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - wall()) <= 0) break;
     last = (options.full_space ? infer_full_space : infer)(model, target, prior, tongue.workspace,
                                                            here);
-    wall += last.wall_s, iterations += last.iterations;
+    iterations += last.iterations;
     factorizations += last.factorizations, solves += last.forward_solves;
     if (last.status == InferStatus::converged) found.push_back(last);
     if (last.status == InferStatus::cancelled || last.status == InferStatus::deadline) break;
     if (until_explained && last.verdict == Verdict::explained) break;
   }
   Answer best = found.empty() ? last : weighed(std::move(found));
-  best.wall_s = wall, best.iterations = iterations;
+  best.wall_s = wall(), best.iterations = iterations;
   best.factorizations = factorizations, best.forward_solves = solves;
   return best;
 }
@@ -124,9 +130,8 @@ Answer infer_from_starts(const Model& model, const Target& target, const Prior& 
     prior_terms(prior, unknowns(model, prior, true));  // errors speak of the whole tongue
     if (TongueState* half = ws.half(prior)) {
       const Mirror& mirror = ws.mirror();
-      return whole_answer(mirror,
-                          from_starts(half_target(mirror, target), half_prior(prior), *half,
-                                      half_options(mirror, options), start_options));
+      return whole_answer(mirror, from_starts(half_target(mirror, target), half_prior(prior), *half,
+                                              half_options(mirror, options), start_options));
     }
   }
   return from_starts(target, prior, ws.whole(), options, start_options);

@@ -14,8 +14,8 @@ namespace {
 constexpr double trial_tolerance = 1e-8;
 constexpr int trial_factorizations = 10;
 constexpr double longest_guess = 2e-3;  // of any node [m]
-constexpr double small_gain = 0.1;    // of the objective
-constexpr double near_bound = 2e-3;  // activation
+constexpr double small_gain = 0.1;      // of the objective
+constexpr double near_bound = 2e-3;     // activation
 
 bool same(const Vector& a, const Vector& b) {
   return a.size() == b.size() && (a - b).cwiseAbs().maxCoeff() < 1e-12;
@@ -172,8 +172,7 @@ std::optional<LocalShape> Objective::local_shape(const Vector& activations, int 
   std::vector<int> which(commands_.size());
   std::iota(which.begin(), which.end(), first);
   LocalShape shape(comparison_, point->equilibrium.x, point->positions,
-                   head_pose(commands_, activations), pose_derivative(commands_),
-                   std::move(which));
+                   head_pose(commands_, activations), pose_derivative(commands_), std::move(which));
   if (point->adjoint.size() > 0 && curvature_counts(*point))
     shape.curvature = point->mechanical, shape.target_curvature = point->target;
   return shape;
@@ -236,9 +235,9 @@ Matrix Objective::gauss_newton(const ObjectivePoint& point) const {
 Matrix Objective::exact_hessian(const ObjectivePoint& point) const {
   if (point.mechanical.size() == 0) {
     const Positions& x = point.equilibrium.x;
-    point.mechanical = mechanical_curvature(model_, commands_, point.activations, x,
-                                            point.equilibrium.parameters, point.positions,
-                                            point.adjoint, ws_);
+    point.mechanical =
+        mechanical_curvature(model_, commands_, point.activations, x, point.equilibrium.parameters,
+                             point.positions, point.adjoint, ws_);
     point.target = target_curvature(comparison_, x, head_pose(commands_, point.activations),
                                     point.residuals, point.positions, pose_derivative(commands_));
   }

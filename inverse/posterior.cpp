@@ -165,7 +165,7 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
     if (!e.fixed) {
       e = estimate(c, z[i], prior.lower[i], prior.upper[i], samples.row(f), before.row(f));
       const int side = pressed(narrow.density, f);
-      e.at_lower = side < 0, e.at_upper = side > 0;
+      e.at_lower = side<0, e.at_upper = side> 0;
       if (side != 0) e.multiplier = std::abs(narrow.density.slope[f]);
       if (!e.at_lower && !e.at_upper) free.push_back(i);
       ++f;
@@ -187,9 +187,8 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
       free.empty() ? 0.0
                    : (j_free * Matrix(rough(free, free)).llt().solve(j_free.transpose())).trace();
   const Vector& r = optimum.residuals.values;
-  const FitTest test =
-      test_fit(r, erring(error.left) + Matrix::Identity(r.size(), r.size()), used,
-               optimum.gradient.dot(rough.llt().solve(optimum.gradient)));
+  const FitTest test = test_fit(r, erring(error.left) + Matrix::Identity(r.size(), r.size()), used,
+                                optimum.gradient.dot(rough.llt().solve(optimum.gradient)));
   answer.chi2_per_dof = test.chi2_per_dof, answer.verdict = test.verdict;
   Eigen::Index worst = 0;
   if (optimum.residuals.distances.size() > 0) optimum.residuals.distances.maxCoeff(&worst);
@@ -198,10 +197,10 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   answer.message =
       test.verdict == Verdict::explained
           ? fmt::format("misfit within noise (p = {:.2g})", test.tail)
-          : fmt::format("misfit beyond noise (p = {:.1g}), largest at the {}: {:.1f} mm; at maximum: "
-                        "{}; at zero: {}",
-                        test.tail, where, 1e3 * optimum.residuals.max, list(at_maximum),
-                        list(at_zero));
+          : fmt::format(
+                "misfit beyond noise (p = {:.1g}), largest at the {}: {:.1f} mm; at maximum: "
+                "{}; at zero: {}",
+                test.tail, where, 1e3 * optimum.residuals.max, list(at_maximum), list(at_zero));
 }
 
 }  // namespace genio

@@ -32,8 +32,8 @@ MarginalSummary summarise(Vector samples, double mode, double lower, double uppe
 /// Hilferty 1931, accurate to 1e-3 for dof >= 3).
 double chi_square_tail(double chi2, double dof);
 
-/// How far the shape's midsagittal line lies from rest, root mean square [m]: what the model's error
-/// is a part of.
+/// How far the shape's midsagittal line lies from rest, root mean square [m]: what the model's
+/// error is a part of.
 double way_from_rest(const Comparison& comparison, const Positions& x);
 
 /// The chi-square test of a fit, and what it means.

@@ -10,7 +10,7 @@ namespace genio {
 namespace {
 
 constexpr double palate_sd = 2e-3, tongue_sd = 5e-3;  // [m]
-constexpr size_t most_trace = 42;  // independent points of a palate trace
+constexpr size_t most_trace = 42;                     // independent points of a palate trace
 constexpr double scale_sd = 0.06, tilt_sd = 20 * std::numbers::pi / 180;
 
 struct Polyline {

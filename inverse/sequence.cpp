@@ -12,7 +12,7 @@
 namespace genio {
 namespace {
 
-constexpr double first_pass = 0.5;     // its part of the work, about
+constexpr double first_pass = 0.5;  // its part of the work, about
 
 struct Told {
   std::function<void(double, const std::string&)> progress;
@@ -31,9 +31,8 @@ std::vector<size_t> groups_of(size_t frames, int threads) {
 
 /// Frame by frame, each near the one before.
 std::vector<Answer> walk_through(const Model& model, const std::vector<SequenceFrame>& frames,
-                                 const Prior& prior, InferWorkspace& ws,
-                                 const SequenceOptions& o, const std::vector<size_t>& groups,
-                                 const Told& told) {
+                                 const Prior& prior, InferWorkspace& ws, const SequenceOptions& o,
+                                 const std::vector<size_t>& groups, const Told& told) {
   std::vector<Answer> answers(frames.size());
   std::mutex turn;
   size_t done = 0;
@@ -168,13 +167,11 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
   if (frames.empty()) throw InputError("no frame of the sequence has a point");
   // One recording, one set of unknowns.
   SequenceOptions how = o;
-  how.infer.bilateral = o.infer.bilateral.value_or(
-      std::all_of(frames.begin(), frames.end(),
-                  [](const SequenceFrame& f) { return f.target.midsagittal(); }));
-  const bool symmetric =
-      std::all_of(frames.begin(), frames.end(), [&](const SequenceFrame& f) {
-        return is_symmetric(f.target, prior, how.infer);
-      });
+  how.infer.bilateral = o.infer.bilateral.value_or(std::all_of(
+      frames.begin(), frames.end(), [](const SequenceFrame& f) { return f.target.midsagittal(); }));
+  const bool symmetric = std::all_of(frames.begin(), frames.end(), [&](const SequenceFrame& f) {
+    return is_symmetric(f.target, prior, how.infer);
+  });
   const auto started = std::chrono::steady_clock::now();
   const auto n = Eigen::Index(unknowns(model, prior, *how.infer.bilateral).size());
   auto groups = groups_of(frames.size(), o.threads);

@@ -15,8 +15,7 @@ SequenceProblem::SequenceProblem(std::vector<std::unique_ptr<JointFrame>>& frame
     walks_.push_back(c.kind != Command::Kind::pose);
   std::vector<PriorTerms> points;
   std::vector<double> steps;
-  for (const auto& f : frames_)
-    points.push_back(f->objective.prior()), steps.push_back(f->walk_sd);
+  for (const auto& f : frames_) points.push_back(f->objective.prior()), steps.push_back(f->walk_sd);
   prior_ = chained(points, steps, walks_);
 }
 

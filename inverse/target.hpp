@@ -92,9 +92,9 @@ class Comparison {
  public:
   Comparison(const Model& model, Target target);
   Residuals operator()(const Positions& x, const HeadPose& pose = {}) const;
-  /// sum_k value_k d2 value_k, what Gauss-Newton leaves out of the second derivatives of the misfit,
-  /// over the 3 n nodal positions and then the pose (shift x, shift z, turn): entries of both
-  /// halves of a symmetric matrix, duplicates to be added. `residuals`: those at x and pose.
+  /// sum_k value_k d2 value_k, what Gauss-Newton leaves out of the second derivatives of the
+  /// misfit, over the 3 n nodal positions and then the pose (shift x, shift z, turn): entries of
+  /// both halves of a symmetric matrix, duplicates to be added. `residuals`: those at x and pose.
   std::vector<Eigen::Triplet<double>> curvature(const Positions& x, const HeadPose& pose,
                                                 const Residuals& residuals) const;
   const Target& target() const { return target_; }

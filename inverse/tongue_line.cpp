@@ -57,7 +57,6 @@ Vector TongueLine::weights(double t, int derivative) const {
   return w;
 }
 
-
 Eigen::Matrix2Xd TongueLine::control(const Positions& x) const {
   Eigen::Matrix2Xd p(2, nodes_.size());
   for (size_t k = 0; k < nodes_.size(); ++k)

@@ -40,7 +40,6 @@ class TongueLine {
   std::vector<Vec2> sample(const Positions& x, int count) const;
 
  private:
-
   std::vector<int> nodes_;
   Vector knots_;
   Matrix bend_;   // second derivatives at the knots = bend_ * values

@@ -28,9 +28,8 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   nlohmann::json j;
   j["frame"] = frame;
   j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
-  for (const char* key :
-       {"forces_N", "sd_N", "interval90_N", "activation", "information_bits", "bound_multipliers",
-        "estimated"})
+  for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation", "information_bits",
+                          "bound_multipliers", "estimated"})
     j[key] = nlohmann::json::object();
   for (const auto& c : v.commands) {
     j["forces_N"][c.name] = c.force;

@@ -147,11 +147,10 @@ void Contact::add_viscous_force_slope(const Positions& x, const Vector& v, Effec
     const auto s = surface.sample(node_position(x, c.node));
     const SoftSpring spring(depth, soft_depth);
     const Vec3 &n = s.gradient, speed = node_position(v, c.node);
-    const Mat3 slope = -spring.curvature * n.dot(speed) * n * n.transpose() +
-                       spring.slope * (n * (s.hessian * speed).transpose() +
-                                       n.dot(speed) * s.hessian);
-    df.middleRows<3>(3 * c.node) -=
-        p[0] * p[1] * c.area * slope * along.middleRows<3>(3 * c.node);
+    const Mat3 slope =
+        -spring.curvature * n.dot(speed) * n * n.transpose() +
+        spring.slope * (n * (s.hessian * speed).transpose() + n.dot(speed) * s.hessian);
+    df.middleRows<3>(3 * c.node) -= p[0] * p[1] * c.area * slope * along.middleRows<3>(3 * c.node);
   });
 }
 

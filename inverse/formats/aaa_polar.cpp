@@ -50,8 +50,8 @@ RawContours read_aaa_polar(const std::string& path) {
       lines.fail(fmt::format("field {}: expected the number of points of the spline", l.first + 1));
     const auto n = size_t(count);
     if (fields.size() < l.first + 1 + 2 * n)
-      lines.fail(fmt::format("{} fields; {} points need {}", fields.size(), n,
-                             l.first + 1 + 2 * n));
+      lines.fail(
+          fmt::format("{} fields; {} points need {}", fields.size(), n, l.first + 1 + 2 * n));
     ContourFrame frame;
     frame.number = int(raw.file.frames.size()) + 1;
     if (l.has_label) frame.label = trimmed(fields[l.label]);
@@ -66,8 +66,10 @@ RawContours read_aaa_polar(const std::string& path) {
                                radius, angle));
       if (std::abs(a) > 2 * std::numbers::pi)
         lines.fail(fmt::format("knot {}: angle {}; expected radians", k, a));
-      frame.points.push_back({{r * std::sin(a), std::numeric_limits<double>::quiet_NaN(),
-                               r * std::cos(a)}, 0, "curve"});
+      frame.points.push_back(
+          {{r * std::sin(a), std::numeric_limits<double>::quiet_NaN(), r * std::cos(a)},
+           0,
+           "curve"});
     }
     if (frame.points.empty()) frame.note = "the frame is empty (no knot has a value)";
     raw.file.frames.push_back(std::move(frame));

@@ -49,9 +49,9 @@ SensorTable samples(const std::string& bytes, size_t first, size_t channels, dou
                     const std::string& path) {
   const size_t size = channels * values * sizeof(float);
   if (bytes.size() <= first || (bytes.size() - first) % size != 0)
-    throw InputError(fmt::format(
-        "{}: {} bytes of samples; {} channels of 7 values need a multiple of {}", path,
-        bytes.size() - std::min(first, bytes.size()), channels, size));
+    throw InputError(
+        fmt::format("{}: {} bytes of samples; {} channels of 7 values need a multiple of {}", path,
+                    bytes.size() - std::min(first, bytes.size()), channels, size));
   SensorTable table{numbered(channels), {}, rate};
   for (size_t at = first; at < bytes.size(); at += size) {
     std::vector<float> v(channels * values);
@@ -70,8 +70,9 @@ SensorTable read_ag501(const std::string& bytes, const std::string& path) {
   const double channels = header_number(header, "NumberOfChannels"),
                rate = header_number(header, "SamplingFrequencyHz");
   if (!(size > 0 && channels >= 1 && channels <= 1000 && rate > 0))
-    throw InputError(path + ": its AG50x header tells no size, NumberOfChannels or "
-                            "SamplingFrequencyHz");
+    throw InputError(path +
+                     ": its AG50x header tells no size, NumberOfChannels or "
+                     "SamplingFrequencyHz");
   return samples(bytes, size_t(size), size_t(channels), rate, path);
 }
 

@@ -21,9 +21,10 @@ RawContours read_scan(const std::string& path) {
   const size_t stride = (scan.vertices.size() + enough - 1) / enough;
   for (size_t k = 0; k < scan.vertices.size(); k += stride)
     frame.points.push_back({scan.vertices[k], 0, "surface"});
-  raw.file.remarks.push_back(fmt::format("{} of {} vertices of the scan, taken as points of the "
-                                         "tongue's surface in the model's frame",
-                                         frame.points.size(), scan.vertices.size()));
+  raw.file.remarks.push_back(
+      fmt::format("{} of {} vertices of the scan, taken as points of the "
+                  "tongue's surface in the model's frame",
+                  frame.points.size(), scan.vertices.size()));
   return raw;
 }
 

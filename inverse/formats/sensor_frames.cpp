@@ -24,25 +24,26 @@ std::string sensor_list(const SensorTable& table) {
 
 }  // namespace
 
-RawContours sensor_frames(const std::string& path, const SensorTable& table,
-                          const ReadOptions& o) {
+RawContours sensor_frames(const std::string& path, const SensorTable& table, const ReadOptions& o) {
   if (o.sensors.empty())
-    throw InputError(fmt::format(
-        "{}: say what its sensors are stuck to, --sensors 3=dorsum,5=tip (tip, blade, dorsum, root, "
-        "node:N); it has{}",
-        path, sensor_list(table)));
+    throw InputError(
+        fmt::format("{}: say what its sensors are stuck to, --sensors 3=dorsum,5=tip (tip, blade, "
+                    "dorsum, root, "
+                    "node:N); it has{}",
+                    path, sensor_list(table)));
   std::vector<std::pair<size_t, std::string>> used;
   for (const auto& [sensor, what] : o.sensors) {
     const auto it = std::find(table.names.begin(), table.names.end(), sensor);
     if (it == table.names.end())
-      throw InputError(fmt::format("--sensors {}={}: {} has{}", sensor, what, path,
-                                   sensor_list(table)));
+      throw InputError(
+          fmt::format("--sensors {}={}: {} has{}", sensor, what, path, sensor_list(table)));
     used.emplace_back(size_t(it - table.names.begin()), what);
   }
   const double rate = o.rate_hz > 0 ? o.rate_hz : table.rate_hz;
   RawContours raw{{}, {"mm", "right", "up"}};
   raw.file.format = ContourFormat::ema, raw.file.model_frame = false;
-  if (rate == 0) raw.file.remarks.push_back("no sampling rate in the file: times are 0 (--rate-hz)");
+  if (rate == 0)
+    raw.file.remarks.push_back("no sampling rate in the file: times are 0 (--rate-hz)");
   for (size_t s = 0; s < table.samples.size(); ++s) {
     ContourFrame& frame = raw.file.frames.emplace_back();
     frame.number = int(s) + 1;

@@ -49,8 +49,8 @@ Header read_header(const std::string& bytes, const std::string& path) {
     c.floating = type == "FLOAT" || type == "DOUBLE";
     c.bytes = type == "DOUBLE" ? 8 : type == "FLOAT" ? 4 : type == "LONG" ? 4 : 2;
     if ((!c.floating && type != "SHORT" && type != "LONG") || !(count >= 1 && count <= 1e5))
-      throw InputError(fmt::format(
-          "{}:{}: expected Column NAME FLOAT|DOUBLE|SHORT|LONG COUNT", path, number));
+      throw InputError(
+          fmt::format("{}:{}: expected Column NAME FLOAT|DOUBLE|SHORT|LONG COUNT", path, number));
     c.count = size_t(count);
     h.record += c.count * c.bytes;
     h.columns.push_back(c);
@@ -62,7 +62,10 @@ Header read_header(const std::string& bytes, const std::string& path) {
 
 double number(const char* at, const Column& c) {
   const auto as = [&]<class T>(T v) { return std::memcpy(&v, at, sizeof v), double(v); };
-  return c.bytes == 8 ? as(double()) : c.floating ? as(float()) : c.bytes == 4 ? as(int()) : as(short());
+  return c.bytes == 8   ? as(double())
+         : c.floating   ? as(float())
+         : c.bytes == 4 ? as(int())
+                        : as(short());
 }
 
 /// "tt_posy" -> ("tt", 1): a scalar track of one coordinate.
@@ -118,7 +121,8 @@ RawContours read_ssff(const std::string& path, const ReadOptions& o) {
     }
     offset += c.count * c.bytes;
   }
-  // Two scalar tracks of a sensor are its horizontal and its vertical one, whatever they are called.
+  // Two scalar tracks of a sensor are its horizontal and its vertical one, whatever they are
+  // called.
   for (auto& p : parts)
     if (p[2] < 0) std::swap(p[1], p[2]);
   for (size_t at = h.size; at < bytes.size(); at += h.record) {

@@ -37,14 +37,13 @@ TEST(MotionSensitivity, IsTheDerivativeOfTheMotion) {
   u << 0, 0, 0.4, 0.2, 0.9, 0.1, 0.3, 0.6;
   const std::vector<double> when = {0.0105, 0.02, 0.03};
   const auto motion = [&](const Vector& values) {
-    const Trajectory t =
-        simulate(m, controls.over_time(values, base), at_rest.x, ws, options);
+    const Trajectory t = simulate(m, controls.over_time(values, base), at_rest.x, ws, options);
     EXPECT_TRUE(t) << t.message;
     return t;
   };
   const Trajectory t = motion(u);
-  const auto exact = motion_sensitivity(m, controls, controls.over_time(u, base), t,
-                                        options.scheme, {}, when, own, 1e-12);
+  const auto exact = motion_sensitivity(m, controls, controls.over_time(u, base), t, options.scheme,
+                                        {}, when, own, 1e-12);
   ASSERT_EQ(exact.size(), when.size());
   for (Eigen::Index k = 2; k < u.size(); ++k) {
     double best = 1;

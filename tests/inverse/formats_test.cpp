@@ -1,7 +1,7 @@
 // Every format gives back the contour that was written in it, and says what it took for granted.
 
-#include <gtest/gtest.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -99,8 +99,8 @@ TEST_F(Formats, GetContoursWideInMillimetres) {
 TEST_F(Formats, EdgeTrakConWithBlanksAndAnEmptyLastField) {
   std::string text;
   for (const Vec2& q : line)  // y down
-    text += fmt::format("\t{:.3f}\t{:.3f}\t{:.3f}\t{:.3f}\t\n", q[0], 300 - q[1], q[0],
-                        300 - q[1] - 1);
+    text +=
+        fmt::format("\t{:.3f}\t{:.3f}\t{:.3f}\t{:.3f}\t\n", q[0], 300 - q[1], q[0], 300 - q[1] - 1);
   ReadOptions o;
   o.facing = "left";
   auto f = read_contours(write("a.con", text), o);
@@ -135,8 +135,9 @@ TEST_F(Formats, PlainWideCsv) {
 }
 
 TEST_F(Formats, AaaPolarBlocks) {
-  std::string text = "Prompt\tTime of sample in recording\tNumber of points of spline \"Tongue\"\t"
-                     "R mm values\tAngle values\n";
+  std::string text =
+      "Prompt\tTime of sample in recording\tNumber of points of spline \"Tongue\"\t"
+      "R mm values\tAngle values\n";
   for (int k = 0; k < 2; ++k) {
     std::string radii, angles;
     for (const Vec2& q : line) {

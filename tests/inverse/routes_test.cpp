@@ -18,7 +18,8 @@ class Routes : public test::PulledTongue {
 TEST_F(Routes, FullSpaceMeetsTheReducedOptimum) {
   Target t = pulled({{"GGP", 3}, {"SL", 1}, {"HG", 1}});
   for (auto& p : t.curve) p.position += Vec2(3e-4, 8e-4);  // a misfit stays
-  t.flesh.push_back({{{m.landmarks.tip, 1.0}}, node_position(m.rest, m.landmarks.tip), 2e-3, "tip"});
+  t.flesh.push_back(
+      {{{m.landmarks.tip, 1.0}}, node_position(m.rest, m.landmarks.tip), 2e-3, "tip"});
   InferOptions full;
   full.full_space = true;
   const Answer a = infer_from_starts(m, t, Prior{}, all, {}, {1}),

@@ -83,8 +83,7 @@ TEST_F(TargetTest, CurvatureIsWhatGaussNewtonLeavesOut) {
     turn << 1, 0, 0, 0.3, 0, 1, 0, 0.2, 0, 0, 30, 10;
     const auto gradient = [&](const Vector& d) -> Vector {
       const Vec3 p = turn * d;
-      const Residuals s =
-          compare(m.rest + along * d, {pose.shift + p.head<2>(), pose.turn + p[2]});
+      const Residuals s = compare(m.rest + along * d, {pose.shift + p.head<2>(), pose.turn + p[2]});
       return (residual_jacobian(s, along) + s.pose * turn).transpose() * s.values;
     };
     const Matrix j = residual_jacobian(r, along) + r.pose * turn;
