@@ -6,6 +6,7 @@
 
 #include "bench/benchmarks.hpp"
 #include "bench/clock.hpp"
+#include "bench/random_muscles.hpp"
 #include "bench/truth.hpp"
 #include "inverse/multi_start.hpp"
 
@@ -48,15 +49,11 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
   Json failures = Json::array();
   for (int k = 0; k < count; ++k) {
     Vector z = Vector::Zero(Eigen::Index(commands.size()));
-    std::vector<int> order(commands.size());
-    for (size_t i = 0; i < order.size(); ++i) order[i] = int(i);
-    std::shuffle(order.begin(), order.end(), random);
-    const int active = 2 + int(4 * uniform(random));
     Parameters p = default_parameters(truth);
-    for (int i = 0; i < active; ++i) {
-      const Command& c = commands[size_t(order[size_t(i)])];
-      z[order[size_t(i)]] = largest * uniform(random);
-      set_command(truth, c.name, z[order[size_t(i)]] * c.scale, p);
+    for (int i : some_muscles(commands.size(), random, uniform)) {
+      const Command& c = commands[size_t(i)];
+      z[i] = largest * uniform(random);
+      set_command(truth, c.name, z[i] * c.scale, p);
     }
     const Equilibrium e = solve_equilibrium(truth, p, truth.rest, truth_ws);
     if (!e) {

@@ -48,8 +48,7 @@ Json inversion_cost(const Model& m, const Progress& progress) {
     // A frame later: everything half a millimetre on.
     for (auto& p : target.curve) p.position += Vec2(0.2e-3, 0.45e-3);
     InferOptions next;
-    next.start = first.activations, next.start_shape = first.shape;
-    next.start_by_unknown = first.shape_by_unknown;
+    start_from(first, next);
     const Answer second = infer_from_starts(m, target, Prior{}, worker, next, {1});
     cold.push_back(first.wall_s / forward), warm.push_back(second.wall_s / forward);
     differences.push_back(differenced.wall_s / exact.wall_s);

@@ -6,6 +6,7 @@
 
 #include "bench/benchmarks.hpp"
 #include "bench/clock.hpp"
+#include "bench/random_muscles.hpp"
 #include "inverse/multi_start.hpp"
 
 namespace genio::bench {
@@ -27,11 +28,8 @@ Json reach(const Model& model, int count, const Progress& progress) {
   int converged = 0, targets = 0;
   while (targets < count) {
     Vector z = Vector::Zero(Eigen::Index(commands.size()));
-    std::vector<int> order(commands.size());
-    for (size_t i = 0; i < order.size(); ++i) order[i] = int(i);
-    std::shuffle(order.begin(), order.end(), random);
-    const int active = 2 + int(4 * uniform(random));
-    for (int i = 0; i < active; ++i) z[order[size_t(i)]] = i == 0 ? 1 : uniform(random);
+    const auto active = some_muscles(commands.size(), random, uniform);
+    for (int i : active) z[i] = i == active.front() ? 1 : uniform(random);
     z *= (targets + 1.0) / count;  // from rest to where one is at its maximum
     const Equilibrium e = solve_equilibrium(
         model, apply_commands(commands, z, default_parameters(model)), model.rest, truth);

@@ -40,10 +40,7 @@ Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& t
     return j;
   }
   const Answer a = infer_from_starts(m, target, Prior{}, ws, infer);
-  if (a.status == InferStatus::converged) {
-    infer.start = a.activations, infer.start_shape = a.shape;
-    infer.start_by_unknown = a.shape_by_unknown;
-  }
+  if (a.status == InferStatus::converged) start_from(a, infer);
   j["status"] = to_string(a.status), j["verdict"] = to_string(a.verdict), j["message"] = a.message;
   j["rms_mm"] = 1e3 * a.rms, j["max_mm"] = 1e3 * a.max;
   j["wall_s"] = a.wall_s, j["factorizations"] = a.factorizations;

@@ -59,9 +59,7 @@ void answer_frames(const Model& model, const std::vector<Frame>& frames, const O
       }
       answer = infer_from_starts(model, frame.target, prior, ws, infer, o.starts);
       view = view_of(model, frame.target, answer, frame_title(frame.contour));
-      if (answer.status == InferStatus::converged)
-        infer.start = answer.activations, infer.start_shape = answer.shape,
-        infer.start_by_unknown = answer.shape_by_unknown;
+      if (answer.status == InferStatus::converged) start_from(answer, infer);
       last_time = frame.contour.time_s;
     }
     send_answer(model, frame.contour, view, answer.shape, o.out, send);

@@ -2,25 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "forward/sensitivity.hpp"
 
 namespace genio {
 namespace {
 
 constexpr int most_iterations = 30;
 constexpr double contraction = 0.1;  // of an iteration, at least
-
-Matrix expand(const DofMap& dofs, const Matrix& unknowns) {
-  Matrix result(dofs.size(), unknowns.cols());
-  for (Eigen::Index c = 0; c < unknowns.cols(); ++c) result.col(c) = dofs.expand(unknowns.col(c));
-  return result;
-}
-
-Matrix reduce(const DofMap& dofs, const Matrix& nodal) {
-  Matrix result(dofs.unknowns(), nodal.cols());
-  for (Eigen::Index c = 0; c < nodal.cols(); ++c) result.col(c) = dofs.reduce(nodal.col(c));
-  return result;
-}
 
 Matrix times(const NodeMatrix& mass, const Matrix& nodal) {
   Matrix result(nodal.rows(), nodal.cols());
@@ -118,7 +107,8 @@ bool Differentiation::advance(const Instant& from, const Instant& to, Eigen::Ind
   Matrix u = u0 + dt * v0;  // a guess for what viscous forces add
   for (int i = 0; i < most_iterations; ++i) {
     const Matrix right = known + viscous_slope(model_, x, v, p, f * u + s_.alpha_f * u0, scratch_);
-    const Matrix next = expand(model_.dofs, ws_.cholesky.solve(reduce(model_.dofs, right)) / f);
+    const Matrix next =
+        expand_columns(model_.dofs, ws_.cholesky.solve(reduce_columns(model_.dofs, right)) / f);
     const double off = (next - u).norm(), size = next.norm();
     u = next;
     // The tangent lacks only the viscous slope, some hundredths of it: each iteration gains as

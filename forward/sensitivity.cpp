@@ -13,11 +13,18 @@ Matrix sensitivity_to_forces(const Model& model, const Equilibrium& equilibrium,
                              Workspace& ws) {
   stiffness(model, equilibrium.x, equilibrium.parameters, ws.stiffness);
   if (!ws.factorize(model, equilibrium.x, equilibrium.parameters)) return {};
-  Matrix right(model.dofs.unknowns(), df.cols());
-  for (Eigen::Index c = 0; c < df.cols(); ++c) right.col(c) = model.dofs.reduce(df.col(c));
-  const Matrix solved = ws.cholesky.solve(right);
-  Matrix result(df.rows(), df.cols());
-  for (Eigen::Index c = 0; c < df.cols(); ++c) result.col(c) = model.dofs.expand(solved.col(c));
+  return expand_columns(model.dofs, ws.cholesky.solve(reduce_columns(model.dofs, df)));
+}
+
+Matrix expand_columns(const DofMap& dofs, const Matrix& unknowns) {
+  Matrix result(dofs.size(), unknowns.cols());
+  for (Eigen::Index c = 0; c < unknowns.cols(); ++c) result.col(c) = dofs.expand(unknowns.col(c));
+  return result;
+}
+
+Matrix reduce_columns(const DofMap& dofs, const Matrix& nodal) {
+  Matrix result(dofs.unknowns(), nodal.cols());
+  for (Eigen::Index c = 0; c < nodal.cols(); ++c) result.col(c) = dofs.reduce(nodal.col(c));
   return result;
 }
 

@@ -16,4 +16,8 @@ Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
 Matrix sensitivity_to_forces(const Model& model, const Equilibrium& equilibrium,
                              const Matrix& force_derivatives, Workspace& ws);
 
+/// DofMap's expand and reduce of every column.
+Matrix expand_columns(const DofMap& dofs, const Matrix& unknowns);
+Matrix reduce_columns(const DofMap& dofs, const Matrix& nodal);
+
 }  // namespace genio

@@ -1,5 +1,6 @@
 #include "inverse/chained_prior.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace genio {
@@ -60,6 +61,12 @@ std::vector<Vector> by_point(const Vector& all, Eigen::Index count) {
   for (Eigen::Index first = 0; first + count <= all.size(); first += count)
     result.push_back(all.segment(first, count));
   return result;
+}
+
+bool fits(const std::vector<Vector>& unknowns, size_t points, Eigen::Index count) {
+  return unknowns.size() == points &&
+         std::all_of(unknowns.begin(), unknowns.end(),
+                     [&](const Vector& z) { return z.size() == count; });
 }
 
 }  // namespace genio

@@ -22,7 +22,9 @@ ChainedPrior chained(const std::vector<PriorTerms>& points, const std::vector<do
 /// not rise are 10 ms apart.
 double walk_sd(const Prior& prior, double from_s, double to_s);
 
-/// The unknowns of each of `count` points.
+/// The unknowns of each point, `count` a point.
 std::vector<Vector> by_point(const Vector& all, Eigen::Index count);
+/// True where `unknowns` has `count` of them for each of `points` points.
+bool fits(const std::vector<Vector>& unknowns, size_t points, Eigen::Index count);
 
 }  // namespace genio

@@ -35,7 +35,7 @@ class FullSpace final : public NonlinearProgram {
         k_(model.pattern),
         other_(model.pattern),
         reduced_(model.pattern, model.dofs),
-        started_(std::chrono::steady_clock::now()) {
+        clock_(options) {
     lower_ = Vector::Constant(free_ + count_, -1e3), upper_ = -lower_;
     lower_.tail(count_) = prior_.lower, upper_.tail(count_) = prior_.upper;
     make_pattern();
@@ -50,10 +50,7 @@ class FullSpace final : public NonlinearProgram {
     return model_.rest + model_.dofs.expand(length * v.head(free_));
   }
   Vector commands(const Vector& v) const { return v.tail(count_); }
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  }
-  InferStatus stop() const { return stop_; }
+  WorkClock& clock() { return clock_; }
 
   const Vector& lower() const override { return lower_; }
   const Vector& upper() const override { return upper_; }
@@ -113,9 +110,7 @@ class FullSpace final : public NonlinearProgram {
                std::span<double> values) override;
   bool go_on(int iteration) override {
     if (options_.progress) options_.progress(iteration, residuals_.rms);
-    if (options_.cancelled && options_.cancelled()) stop_ = InferStatus::cancelled;
-    if (options_.deadline_s > 0 && seconds() > options_.deadline_s) stop_ = InferStatus::deadline;
-    return stop_ == InferStatus::converged;
+    return !clock_.stopped();
   }
 
  private:
@@ -151,8 +146,7 @@ class FullSpace final : public NonlinearProgram {
   Positions x_;
   Parameters p_;
   Residuals residuals_;
-  InferStatus stop_ = InferStatus::converged;
-  std::chrono::steady_clock::time_point started_;
+  WorkClock clock_;
 };
 
 bool FullSpace::evaluate(const Vector& v) {
@@ -271,10 +265,11 @@ Answer infer_full_space(const Model& model, const Target& target, const Prior& p
       solve(program, program.start(near.shape, z.cwiseMax(terms.lower).cwiseMin(terms.upper)), how);
   Answer answer;
   answer.iterations = near.iterations + r.iterations;
-  if (program.stop() != InferStatus::converged || !r.solved) {
-    answer.status = program.stop() != InferStatus::converged ? program.stop() : InferStatus::failed;
+  const InferStatus stop = program.clock().reason();
+  if (stop != InferStatus::converged || !r.solved) {
+    answer.status = stop != InferStatus::converged ? stop : InferStatus::failed;
     answer.message = fmt::format("full space: Ipopt stopped (status {})", r.status);
-    answer.wall_s = near.wall_s + program.seconds();
+    answer.wall_s = near.wall_s + program.clock().seconds();
     return answer;
   }
   // The reduced objective at the same point, for its posterior.
@@ -291,7 +286,7 @@ Answer infer_full_space(const Model& model, const Target& target, const Prior& p
   }
   answer.factorizations = near.factorizations + r.iterations + objective.factorizations();
   answer.forward_solves = near.forward_solves + objective.forward_solves();
-  answer.wall_s = near.wall_s + program.seconds();
+  answer.wall_s = near.wall_s + program.clock().seconds();
   return answer;
 }
 

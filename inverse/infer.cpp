@@ -40,6 +40,11 @@ std::vector<std::string> names(const TradeOff& trade) {
   return result;
 }
 
+void start_from(const Answer& answer, InferOptions& options) {
+  options.start = answer.activations, options.start_shape = answer.shape;
+  options.start_by_unknown = answer.shape_by_unknown;
+}
+
 Answer infer(const Model& model, const Target& target, const Prior& prior, Workspace& ws,
              const InferOptions& options) {
   if (target.empty()) throw InputError("the target has no points");

@@ -91,6 +91,9 @@ struct Answer {
   double wall_s = 0;
 };
 
+/// Lets the next descent start where this one ended: the next frame's.
+void start_from(const Answer& answer, InferOptions& options);
+
 /// The forces within [0, maximum] that minimise 1/2 sum (distance / sigma)^2 + 1/2 sum
 /// (activation / effort_sd)^2, see descend(), and the Laplace posterior about them. Throws
 /// InputError for an empty target.

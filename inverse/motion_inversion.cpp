@@ -34,8 +34,7 @@ void check(const Model& model, const std::vector<MotionFrame>& frames, const Pri
 
 /// Unknowns at each knot, linear in time between the static answers of the frames.
 Vector static_start(const Model& model, const std::vector<MotionFrame>& frames, const Prior& prior,
-                    InferWorkspace& ws, const MotionOptions& o, const MotionProblem& problem,
-                    int& factorizations) {
+                    InferWorkspace& ws, const MotionOptions& o, const MotionProblem& problem) {
   const auto n = Eigen::Index(problem.commands().size());
   std::vector<double> times;
   std::vector<Vector> answers;
@@ -43,27 +42,18 @@ Vector static_start(const Model& model, const std::vector<MotionFrame>& frames, 
   InferOptions infer = o.infer;
   for (const MotionFrame& f : frames) {
     const Answer a = infer_from_starts(model, f.target, prior, ws, infer, {1});
-    factorizations += a.factorizations;
     if (a.status != InferStatus::converged) continue;
     times.push_back(f.time_s), answers.push_back(a.activations);
-    infer.start = a.activations, infer.start_shape = a.shape;
-    infer.start_by_unknown = a.shape_by_unknown;
+    start_from(a, infer);
     if (o.progress)
       o.progress(static_part * double(times.size()) / double(frames.size() + 1), "without motion");
   }
   const auto& knots = problem.controls().knots;
   Vector u = Vector::Zero(problem.controls().unknowns());
   if (answers.empty()) return u;
-  for (size_t j = 0; j < knots.size(); ++j) {
-    const auto after =
-        size_t(std::lower_bound(times.begin(), times.end(), knots[j]) - times.begin());
-    Vector z = answers[std::min(after, answers.size() - 1)];
-    if (after > 0 && after < answers.size()) {
-      const double s = (knots[j] - times[after - 1]) / (times[after] - times[after - 1]);
-      z = (1 - s) * answers[after - 1] + s * answers[after];
-    }
-    u.segment(n * Eigen::Index(j), n) = z;
-  }
+  const CommandsOverTime between{std::move(times), std::move(answers)};
+  for (size_t j = 0; j < knots.size(); ++j)
+    u.segment(n * Eigen::Index(j), n) = between.at(knots[j]);
   return u;
 }
 
@@ -167,13 +157,9 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
   const auto n = Eigen::Index(problem.commands().size());
   answer.knots_s = problem.controls().knots;
   Vector start(problem.controls().unknowns());
-  const bool known =
-      o.known.size() == answer.knots_s.size() &&
-      std::all_of(o.known.begin(), o.known.end(), [&](const Vector& z) { return z.size() == n; });
-  int in_starts = 0;
-  if (known)
+  if (fits(o.known, answer.knots_s.size(), n))
     for (size_t j = 0; j < o.known.size(); ++j) start.segment(n * Eigen::Index(j), n) = o.known[j];
-  else start = static_start(model, frames, prior, ws, o, problem, in_starts);
+  else start = static_start(model, frames, prior, ws, o, problem);
   start = start.cwiseMax(problem.lower()).cwiseMin(problem.upper());
 
   DescentOptions how{o.infer.max_iterations, 1e-3, {}};

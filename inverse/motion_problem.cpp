@@ -23,7 +23,7 @@ MotionProblem::MotionProblem(const Model& model, const std::vector<MotionFrame>&
       sensitivity_ws_(model),
       commands_(unknowns(model, prior, *options.infer.bilateral)),
       base_(default_parameters(model)),
-      started_(std::chrono::steady_clock::now()) {
+      clock_(options.infer) {
   for (const Command& c : commands_) {
     auto& combination = controls_.combinations.emplace_back();
     for (size_t i = 0; i < c.parameters.size(); ++i)
@@ -49,18 +49,6 @@ void MotionProblem::set_prior(const Prior& prior) {
                                               ? 0
                                               : base_[command.parameters.front()] / command.scale;
   }
-}
-
-double MotionProblem::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-}
-
-bool MotionProblem::stopped() {
-  if (stop_ != InferStatus::converged) return true;
-  if (options_.infer.cancelled && options_.infer.cancelled()) stop_ = InferStatus::cancelled;
-  else if (options_.infer.deadline_s > 0 && seconds() > options_.infer.deadline_s)
-    stop_ = InferStatus::deadline;
-  return stop_ != InferStatus::converged;
 }
 
 double MotionProblem::rms() const {

@@ -23,15 +23,15 @@ class MotionProblem final : public MisfitProblem {
   const Trajectory& trajectory() const { return trajectory_; }
   const std::vector<Residuals>& residuals() const { return residuals_; }
   int simulations() const { return simulations_; }
-  InferStatus stop_reason() const { return stop_; }
-  double seconds() const;
+  InferStatus stop_reason() const { return clock_.reason(); }
+  double seconds() const { return clock_.seconds(); }
   const QuadraticTerm& prior() const { return prior_.all; }
 
   const Vector& lower() const override { return prior_.lower; }
   const Vector& upper() const override { return prior_.upper; }
   std::optional<double> value(const Vector& u) override;
   std::unique_ptr<LocalProblem> local(const Vector& u) override;
-  bool stopped() override;
+  bool stopped() override { return clock_.stopped(); }
   const std::string& last_failure() const override { return failure_; }
   double rms() const override;
 
@@ -56,9 +56,8 @@ class MotionProblem final : public MisfitProblem {
   std::vector<Residuals> residuals_;
   double value_ = 0;
   int simulations_ = 0;
-  InferStatus stop_ = InferStatus::converged;
+  WorkClock clock_;
   std::string failure_;
-  std::chrono::steady_clock::time_point started_;
 };
 
 }  // namespace genio

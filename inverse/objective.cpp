@@ -33,20 +33,8 @@ Objective::Objective(const Model& model, const Comparison& comparison, const Pri
           unknowns(model, prior, options.bilateral.value_or(comparison.target().midsagittal()))),
       base_(default_parameters(model)),
       prior_(prior_terms(prior, commands_)),
-      factorizations_before_(ws.cholesky.factorizations()),
-      started_(std::chrono::steady_clock::now()) {}
-
-double Objective::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-}
-
-bool Objective::stopped() {
-  if (stop_ != InferStatus::converged) return true;
-  if (options_.cancelled && options_.cancelled()) stop_ = InferStatus::cancelled;
-  else if (options_.deadline_s > 0 && seconds() > options_.deadline_s)
-    stop_ = InferStatus::deadline;
-  return stop_ != InferStatus::converged;
-}
+      clock_(options),
+      factorizations_before_(ws.cholesky.factorizations()) {}
 
 void Objective::weigh(ObjectivePoint& p) const {
   p.value = 0.5 * p.residuals.values.squaredNorm() + prior_.value(p.activations);

@@ -1,10 +1,9 @@
 #pragma once
 // The reduced objective: commands in, misfit and its derivatives out, the mechanics hidden inside.
 
-#include <chrono>
-
 #include "inverse/descent.hpp"
 #include "inverse/infer.hpp"
+#include "inverse/work_clock.hpp"
 
 namespace genio {
 
@@ -55,14 +54,14 @@ class Objective final : public MisfitProblem {
   const Vector& upper() const override { return prior_.upper; }
   std::optional<double> value(const Vector& activations) override;
   std::unique_ptr<LocalProblem> local(const Vector& activations) override;
-  bool stopped() override;
+  bool stopped() override { return clock_.stopped(); }
   const std::string& last_failure() const override { return failure_; }
   double rms() const override { return have_last_ ? last_.residuals.rms : 0; }
 
-  InferStatus stop_reason() const { return stop_; }
+  InferStatus stop_reason() const { return clock_.reason(); }
   int factorizations() const { return ws_.cholesky.factorizations() - factorizations_before_; }
   int forward_solves() const { return forward_solves_; }
-  double seconds() const;
+  double seconds() const { return clock_.seconds(); }
 
  private:
   void weigh(ObjectivePoint& point) const;
@@ -87,10 +86,9 @@ class Objective final : public MisfitProblem {
   PriorTerms prior_;
   ObjectivePoint last_, anchor_;  // latest evaluated; latest with derivatives
   bool have_last_ = false, have_anchor_ = false;
-  InferStatus stop_ = InferStatus::converged;
+  WorkClock clock_;
   std::string failure_;
   int factorizations_before_, forward_solves_ = 0;
-  std::chrono::steady_clock::time_point started_;
 };
 
 }  // namespace genio

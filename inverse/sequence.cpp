@@ -46,8 +46,7 @@ std::vector<Answer> walk_through(const Model& model, const std::vector<SequenceF
         here.before = Prior::Before{infer.start, walk_sd(prior, last, frames[k].time_s)};
       answers[k] = infer_from_starts(model, frames[k].target, here, own, infer, o.starts);
       if (answers[k].status == InferStatus::converged) {
-        infer.start = answers[k].activations, infer.start_shape = answers[k].shape;
-        infer.start_by_unknown = answers[k].shape_by_unknown;
+        start_from(answers[k], infer);
         last = frames[k].time_s;
       }
       const std::lock_guard lock(turn);
@@ -145,9 +144,8 @@ void summarise(std::vector<std::unique_ptr<JointFrame>>& frames, const SequenceP
     if (k + 1 < count) add({right[k], slopes.second}, z, terms);
     o.set_prior(std::move(terms));
     Answer& a = answers[k];
-    const auto* point = o.derivatives(z);
-    tell(*point, a);
-    summarise_posterior(o, *point, frames[k]->comparison, frames[k]->options.model_error, a);
+    tell(*points[k], a);
+    summarise_posterior(o, *points[k], frames[k]->comparison, frames[k]->options.model_error, a);
   }
 }
 
@@ -176,9 +174,7 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
   const auto n = Eigen::Index(unknowns(model, prior, *how.infer.bilateral).size());
   auto groups = groups_of(frames.size(), o.threads);
   std::vector<Answer> answers(frames.size());
-  const bool known =
-      o.known.size() == frames.size() &&
-      std::all_of(o.known.begin(), o.known.end(), [&](const Vector& z) { return z.size() == n; });
+  const bool known = fits(o.known, frames.size(), n);
   if (!known) answers = walk_through(model, frames, prior, ws, how, groups, told);
   // Frames without a first answer have no place in the joint problem.
   std::vector<size_t> kept;
@@ -200,9 +196,8 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
     const size_t k = kept[j];
     if (g + 1 < groups.size() && j == groups[g + 1]) ++g;
     InferOptions infer = how.infer;
-    infer.start = known ? o.known[k] : answers[k].activations;
-    if (!known)
-      infer.start_shape = answers[k].shape, infer.start_by_unknown = answers[k].shape_by_unknown;
+    if (known) infer.start = o.known[k];
+    else start_from(answers[k], infer);
     if (half) infer = half_options(ws.mirror(), infer);
     const double sd = j == 0 ? 1 : walk_sd(prior, frames[kept[j - 1]].time_s, frames[k].time_s);
     joint.push_back(std::make_unique<JointFrame>(
