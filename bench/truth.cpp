@@ -2,48 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <random>
 
-#include "forward/refine.hpp"
-
 namespace genio::bench {
 namespace {
-
-/// Node in the middle of two old ones of one element: of an edge, a face's or the volume's
-/// diagonal.
-class Middles {
- public:
-  Middles(const HexMesh& old, const HexMesh& fine) : old_(old) {
-    for (size_t n = old.nodes.size(); n < fine.nodes.size(); ++n) at_[key(fine.nodes[n])] = int(n);
-  }
-  int operator()(int a, int b) const {
-    const auto it = at_.find(key(0.5 * (old_.nodes[size_t(a)] + old_.nodes[size_t(b)])));
-    return it == at_.end() ? -1 : it->second;
-  }
-
- private:
-  using Key = std::array<long long, 3>;
-  static Key key(const Vec3& x) {
-    Key k;
-    for (int i = 0; i < 3; ++i) k[size_t(i)] = std::llround(x[i] * 1e10);
-    return k;
-  }
-  const HexMesh& old_;
-  std::map<Key, int> at_;
-};
-
-Fibre with_middles(const Fibre& fibre, const Middles& middle) {
-  Fibre result;
-  for (size_t k = 0; k < fibre.size(); ++k) {
-    if (k > 0 && fibre[k - 1].node >= 0 && fibre[k].node >= 0)
-      if (const int m = middle(fibre[k - 1].node, fibre[k].node); m >= 0)
-        result.push_back({m, Vec3::Zero()});
-    result.push_back(fibre[k]);
-  }
-  return result;
-}
 
 template <class Act>
 void each_segment(const ModelDescription& d, Act act) {
@@ -55,21 +18,6 @@ void each_segment(const ModelDescription& d, Act act) {
 }
 
 }  // namespace
-
-ModelDescription refined(const ModelDescription& description) {
-  ModelDescription d = description;
-  const RefinedMesh fine = genio::refined(description.mesh, description.supports);
-  const Middles middle(description.mesh, fine.mesh);
-  d.mesh = fine.mesh, d.supports = fine.supports;
-  for (Muscle& muscle : d.muscles) {
-    for (Fibre& fibre : muscle.fibres) fibre = with_middles(fibre, middle);
-    std::vector<int> children;
-    for (int e : muscle.elements)
-      for (int c = 0; c < 8; ++c) children.push_back(8 * e + c);
-    muscle.elements = std::move(children);
-  }
-  return d;
-}
 
 double mean_turn(const ModelDescription& a, const ModelDescription& b) {
   std::vector<Vec3> first;

@@ -1,14 +1,9 @@
 #pragma once
 // Tongues that differ from the model that will judge them, to make targets without inverse crime.
 
-#include "forward/model_file.hpp"
+#include "forward/refined_model.hpp"
 
 namespace genio::bench {
-
-/// The same tongue with every element split in eight and its fibres through the new nodes. The
-/// midsagittal line stays the smooth one through the old nodes: through the middles of chords it
-/// would lie flat.
-ModelDescription refined(const ModelDescription& description);
 
 /// The same tongue with its inner nodes shifted by a smooth random field that turns fibre segments
 /// by `degrees` on average; the surface and what is supported stay.

@@ -1,10 +1,10 @@
 # `cmake --install`: program, libraries, headers, data, and a package for find_package(genio).
 include(CMakePackageConfigHelpers)
 install(TARGETS genio RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS genio_forward genio_inverse genio_messages genio_server genio_report
+install(TARGETS genio_forward genio_inverse genio_discrepancy genio_messages genio_server genio_report
         EXPORT genioTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT genioTargets NAMESPACE genio:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/genio)
-foreach(room forward inverse server report)
+foreach(room forward inverse discrepancy server report)
   install(DIRECTORY ${room}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/genio/${room}
           FILES_MATCHING PATTERN "*.hpp")
 endforeach()

@@ -25,12 +25,20 @@
 #include "forward/effects/viscosity.hpp"
 #include "forward/effects/weak_muscle.hpp"
 #include "forward/nearest_name.hpp"
+#include "forward/places.hpp"
 
 namespace genio {
 namespace {
 
 using Made = std::shared_ptr<const Effect>;
 using Maker = Made (*)(Settings&, const Anatomy&);
+using Places = std::vector<Place> (*)(const ModelDescription&);
+
+struct EffectKind {
+  std::string name;
+  Maker maker;
+  Places places = nullptr;  ///< where it may be, where that needs saying
+};
 
 constexpr Support in_midplane = held_along(false, true, false);
 constexpr double field_spacing = 2e-3;    // [m]
@@ -139,9 +147,10 @@ Vec3 centroid(const HexMesh& mesh) {
   return sum / double(mesh.nodes.size());
 }
 
-/// Every effect there is; adding one here is all it takes.
-const std::vector<std::pair<std::string, Maker>>& makers() {
-  static const std::vector<std::pair<std::string, Maker>> all = {
+/// Every effect there is; adding one here is all it takes, also to be a candidate for what a model
+/// misses.
+const std::vector<EffectKind>& kinds() {
+  static const std::vector<EffectKind> all = {
       {"elasticity",
        [](Settings& s, const Anatomy& a) -> Made {
          return std::make_shared<Elasticity>(a.description.mesh, constants(s),
@@ -159,7 +168,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
        }},
       {"gravity",
        [](Settings& s, const Anatomy& a) -> Made {
-         return std::make_shared<Gravity>(a.mass, s.take_point("", Vec3(0, 0, -9.81)));
+         const Vec3 g = s.take_point("", Vec3(0, 0, -9.81));
+         return std::make_shared<Gravity>(a.mass, g, s.take("pitch", 0));
        }},
       {"active_stiffening", active_stiffening},
       {"fibre_anisotropy",
@@ -188,7 +198,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
          const double factor = s.take("factor", 1), radius = s.take("radius", 0.015);
          return std::make_shared<StiffRegion>(
              a.description.mesh, factor, s.take_point("", centroid(a.description.mesh)), radius);
-       }},
+       },
+       regions},
       {"weak_muscle", weak_muscle},
       {"extra_muscle",
        [](Settings& s, const Anatomy& a) -> Made {
@@ -196,7 +207,8 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
                     to = s.take_point("to_", Vec3::Zero());
          const double radius = s.take("radius", 8e-3), force = s.take("force", 0);
          return std::make_shared<ExtraMuscle>(a.description.mesh, from, to, radius, force);
-       }},
+       },
+       muscle_courses},
       {"force_length",
        [](Settings& s, const Anatomy& a) -> Made {
          const double strength = s.take("strength", 1), width = s.take("width", 0.67),
@@ -233,10 +245,16 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
 const std::vector<std::string>& effect_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> n;
-    for (const auto& [name, maker] : makers()) n.push_back(name);
+    for (const EffectKind& kind : kinds()) n.push_back(kind.name);
     return n;
   }();
   return names;
+}
+
+std::vector<Place> places_of(const std::string& effect, const ModelDescription& d) {
+  for (const EffectKind& kind : kinds())
+    if (kind.name == effect && kind.places) return kind.places(d);
+  return {{"", {}}};
 }
 
 std::vector<Support> supports_for(const ModelDescription& d) {
@@ -270,13 +288,13 @@ std::vector<Quad> free_faces(const HexMesh& mesh, const std::vector<Support>& su
 
 std::shared_ptr<const Effect> make_effect(const std::string& name, const EffectTable& table,
                                           const Anatomy& anatomy) {
-  const auto maker = std::find_if(makers().begin(), makers().end(),
-                                  [&](const auto& m) { return m.first == name; });
-  if (maker == makers().end())
+  const auto kind = std::find_if(kinds().begin(), kinds().end(),
+                                 [&](const EffectKind& k) { return k.name == name; });
+  if (kind == kinds().end())
     throw InputError(fmt::format("{}: [effect.{}] is no effect; did you mean {}?", anatomy.source,
                                  name, nearest_name(name, effect_names())));
   Settings settings(anatomy.source, name, table);
-  const auto effect = maker->second(settings, anatomy);
+  const auto effect = kind->maker(settings, anatomy);
   settings.finish();
   for (const auto& info : effect->parameters())
     if (!(info.value >= info.lower && info.value <= info.upper))

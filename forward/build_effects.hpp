@@ -19,6 +19,15 @@ struct Anatomy {
 /// The supports of a model with these effects: opening jaws and mobile hyoids are unknowns.
 std::vector<Support> supports_for(const ModelDescription& description);
 
+/// A place where an effect may be, and the table that puts it there.
+struct Place {
+  std::string name;
+  EffectTable table;
+};
+
+/// The places of an effect that needs one; a nameless one for others.
+std::vector<Place> places_of(const std::string& effect, const ModelDescription& description);
+
 /// Makes the effect `name` from its table. Throws InputError naming what is wrong.
 std::shared_ptr<const Effect> make_effect(const std::string& name, const EffectTable& table,
                                           const Anatomy& anatomy);

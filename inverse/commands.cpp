@@ -19,6 +19,15 @@ std::vector<Command> muscle_commands(const Model& model, bool bilateral) {
   return commands;
 }
 
+std::vector<int> parameters_named(const Model& model, const std::string& name) {
+  std::vector<int> result;
+  for (size_t k = 0; k < model.parameters.size(); ++k)
+    if (const auto& known = model.parameters[k].name;
+        known == name || (known != bilateral_name(known) && bilateral_name(known) == name))
+      result.push_back(int(k));
+  return result.empty() ? std::vector{parameter_index(model, name)} : result;
+}
+
 Matrix pose_derivative(const std::vector<Command>& commands) {
   Matrix d = Matrix::Zero(3, Eigen::Index(commands.size()));
   for (size_t c = 0; c < commands.size(); ++c)

@@ -27,6 +27,10 @@ struct Command {
 /// All muscles of the model, in the model's order; `bilateral` joins left and right.
 std::vector<Command> muscle_commands(const Model& model, bool bilateral);
 
+/// Model parameters that "effect.parameter" speaks of: itself or its two sides ("weak_muscle.GGP").
+/// Throws InputError that suggests the nearest name.
+std::vector<int> parameters_named(const Model& model, const std::string& name);
+
 /// The head pose among the unknowns' values; none: no motion.
 HeadPose head_pose(const std::vector<Command>& commands, const Vector& z);
 /// d (shift x, shift z, turn) / dz: 3 x count.

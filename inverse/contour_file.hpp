@@ -15,6 +15,7 @@ struct ContourPoint {
   double sigma = 0;          ///< [m]; 0: the caller's noise
   std::string kind;          ///< "curve", "surface", "volume" or a flesh point's name
   Vec3 rest = Vec3::Zero();  ///< of a volume point: where its tissue lies at rest [m]
+  int slice = 0;             ///< of a surface point: which contour it belongs to
 };
 
 /// One shape: a frame of a recording.
@@ -52,7 +53,7 @@ struct ContourFile {
 };
 
 /// Reads CSV (`frame,point,x_mm,[y_mm,]z_mm[,sigma_mm][,kind][,label][,time_s]
-/// [,rest_x_mm,rest_y_mm,rest_z_mm]`, model frame), AAA tab-separated exports (Cartesian and
+/// [,rest_x_mm,rest_y_mm,rest_z_mm][,slice]`, model frame), AAA tab-separated exports (Cartesian and
 /// polar), GetContours tables (long, wide, _EdgeTrak), EdgeTrak .con and other plain tables of x, y
 /// columns, EMA (AG500 and AG501 .pos, AG501 text, SSFF), and surfaces (PLY, OBJ, STL). Throws
 /// InputError naming file, line and field.

@@ -17,7 +17,7 @@ constexpr double worth_trying = 30;  // times the tolerance
 
 /// The minimum of the local problem within `trust` of its anchor, unknowns that their bounds press
 /// on put there.
-Vector minimum(LocalProblem& local, const MisfitProblem& problem, double trust, int& iterations) {
+Vector minimum(LocalModel& local, const MisfitProblem& problem, double trust, int& iterations) {
   const Vector &lower = problem.lower(), &upper = problem.upper(), &anchor = local.anchor();
   local.set_bounds(lower.cwiseMax((anchor.array() - trust).matrix()),
                    upper.cwiseMin((anchor.array() + trust).matrix()));
@@ -36,7 +36,7 @@ Vector minimum(LocalProblem& local, const MisfitProblem& problem, double trust, 
   return u;
 }
 
-double at(LocalProblem& local, const Vector& u) {
+double at(LocalModel& local, const Vector& u) {
   double value = 0;
   local.value(u, value);
   return value;
@@ -81,7 +81,7 @@ DescentResult descend(MisfitProblem& problem, const Vector& start, const Descent
     value = problem.value(u);
     if (problem.stopped()) return result;
     const double gain = value ? result.value - *value : 0;
-    std::unique_ptr<LocalProblem> next;
+    std::unique_ptr<LocalModel> next;
     if (gain > 1e-3 * promise) next = problem.local(u);
     const double length = step.cwiseAbs().maxCoeff();
     if (!value || gain < 0.25 * promise) trust = value ? 0.5 * length : 0.25 * length;

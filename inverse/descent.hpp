@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "inverse/local_problem.hpp"
+#include "inverse/local_model.hpp"
 
 namespace genio {
 
@@ -19,7 +19,7 @@ class MisfitProblem {
   /// The objective; empty where it cannot be evaluated.
   virtual std::optional<double> value(const Vector& u) = 0;
   /// Its local problem at a point whose value is known; null where there is none.
-  virtual std::unique_ptr<LocalProblem> local(const Vector& u) = 0;
+  virtual std::unique_ptr<LocalModel> local(const Vector& u) = 0;
   /// True once the time is up or the requester gave up.
   virtual bool stopped() = 0;
   /// The reason of the latest failure.
@@ -39,7 +39,7 @@ struct DescentResult {
   std::string message;  ///< the reason where it did not
   Vector u;             ///< best point; empty where there is none
   double value = 0;
-  std::shared_ptr<LocalProblem> local;  ///< at u
+  std::shared_ptr<LocalModel> local;  ///< at u
   int iterations = 0;                   ///< local problems
   int solver_iterations = 0;            ///< Ipopt's in all of them
 };

@@ -88,7 +88,7 @@ Target make_target(const Model& model, const ContourFrame& frame, double noise) 
           "expected millimetres in the model's frame. Wrong units, or not registered?",
           frame.number, i + 1, 1e3 * q[0], 1e3 * q[2], 1e3 * (flat - middle).norm()));
     if (p.kind == "curve") target.curve.push_back({Vec2(q[0], q[2]), sigma});
-    else if (p.kind == "surface") target.surface.push_back({q, sigma});
+    else if (p.kind == "surface") target.surface.push_back({q, sigma, p.slice});
     else target.flesh.push_back({flesh(model, p), q, sigma, p.kind});
   }
   if (frame.points.size() > 2) {

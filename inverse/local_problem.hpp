@@ -4,7 +4,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "inverse/nonlinear_program.hpp"
+#include "inverse/local_model.hpp"
 #include "inverse/target.hpp"
 
 namespace genio {
@@ -39,15 +39,13 @@ struct QuadraticTerm {
 /// sum over shapes of 1/2 |residuals(x + X d, pose + P d)|^2 + 1/2 d.C d, plus the prior, d = u
 /// less the anchor. Value and gradient are exact at the anchor; residuals are those of the target
 /// itself.
-class LocalProblem final : public NonlinearProgram {
+class LocalProblem final : public LocalModel {
  public:
   LocalProblem(std::vector<LocalShape> shapes, QuadraticTerm prior, Vector anchor);
 
-  /// Where it is to be minimised.
-  void set_bounds(Vector lower, Vector upper);
-  const Vector& anchor() const { return anchor_; }
-  /// Longest displacement of a node of any target for the step d [m].
-  double reach(const Vector& d) const;
+  void set_bounds(Vector lower, Vector upper) override;
+  const Vector& anchor() const override { return anchor_; }
+  double reach(const Vector& d) const override;
 
   const Vector& lower() const override { return lower_; }
   const Vector& upper() const override { return upper_; }

@@ -181,7 +181,7 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
         answer.frames.push_back(
             {own[k].time_s, shape_at(answer.trajectory, own[k].time_s), problem.residuals()[k]});
       answer.unknowns = by_point(r.u, n);
-      summarise(problem, *r.local, r.u, o.infer.model_error, answer);
+      summarise(problem, dynamic_cast<LocalProblem&>(*r.local), r.u, o.infer.model_error, answer);
     } else {
       answer.message = problem.last_failure();
     }

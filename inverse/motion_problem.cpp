@@ -93,7 +93,7 @@ std::optional<double> MotionProblem::value(const Vector& u) {
   return value;
 }
 
-std::unique_ptr<LocalProblem> MotionProblem::local(const Vector& u) {
+std::unique_ptr<LocalModel> MotionProblem::local(const Vector& u) {
   if (!value(u)) return nullptr;
   const auto n = Eigen::Index(commands_.size());
   Matrix first;

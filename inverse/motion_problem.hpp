@@ -30,7 +30,7 @@ class MotionProblem final : public MisfitProblem {
   const Vector& lower() const override { return prior_.lower; }
   const Vector& upper() const override { return prior_.upper; }
   std::optional<double> value(const Vector& u) override;
-  std::unique_ptr<LocalProblem> local(const Vector& u) override;
+  std::unique_ptr<LocalModel> local(const Vector& u) override;
   bool stopped() override { return clock_.stopped(); }
   const std::string& last_failure() const override { return failure_; }
   double rms() const override;

@@ -80,8 +80,8 @@ std::vector<Command> unknowns(const Model& model, const Prior& prior, bool bilat
   std::vector<Command> result = muscle_commands(model, bilateral);
   for (const auto& [name, belief] : prior.parameters) {
     need_positive(belief.sd, name.c_str());
-    const int k = parameter_index(model, name);
-    const auto& info = model.parameters[size_t(k)].info;
+    const std::vector<int> which = parameters_named(model, name);
+    const auto& info = model.parameters[size_t(which.front())].info;
     if (!(belief.mean >= info.lower && belief.mean <= info.upper))
       throw InputError(fmt::format("parameter {}: mean {} {}; expected {} to {}", name, belief.mean,
                                    info.unit, info.lower, info.upper));
@@ -90,8 +90,8 @@ std::vector<Command> unknowns(const Model& model, const Prior& prior, bool bilat
                                   std::abs(belief.mean) + pose_range * belief.sd);
     result.push_back({name,
                       reach,
-                      {k},
-                      {1.0},
+                      which,
+                      std::vector<double>(which.size(), 1.0),
                       Command::Kind::parameter,
                       info.unit,
                       std::max(-1.0, info.lower / reach),

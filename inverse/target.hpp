@@ -33,6 +33,7 @@ struct FleshPoint {
 struct SurfacePoint {
   Vec3 position;  ///< [m]
   double sigma;   ///< [m]
+  int slice = 0;  ///< points of one slice were traced in one go: their noise may hang together
 };
 
 struct Target {

@@ -28,7 +28,7 @@ ActiveStiffening::ActiveStiffening(const HexMesh& mesh, std::vector<Muscle> musc
       muscles_(std::move(muscles)),
       through_(mesh.elements.size()),
       recruitment_(recruitment),
-      info_{{{"factor", "1", factor, 1, 100, 1}}} {
+      info_{{{"factor", "1", factor, 1, 100, 1, false, false, 9}}} {
   for (size_t k = 0; k < muscles_.size(); ++k)
     for (int e : muscles_[k].elements) through_[size_t(e)].push_back(int(k));
 }

@@ -26,7 +26,7 @@ AirwayPressure::AirwayPressure(const HexMesh& mesh, std::vector<Quad> faces, dou
     : faces_(std::move(faces)),
       centre_(Vec3::Zero()),
       normal_(Vec3::Zero()),
-      info_{{{"pressure", "Pa", pressure, -1e4, 1e4, 0, true}}} {
+      info_{{{"pressure", "Pa", pressure, -1e4, 1e4, 0, true, false, 400}}} {
   std::map<std::pair<int, int>, int> edges;  // met once: the rim
   for (const Quad& face : faces_)
     for (int a = 0; a < 4; ++a) ++edges[std::minmax(face[a], face[(a + 1) % 4])];

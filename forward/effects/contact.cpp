@@ -52,7 +52,7 @@ Contact::Contact(std::string name, std::shared_ptr<const DistanceField> field,
       field_(std::move(field)),
       nodes_(std::move(nodes)),
       jaw_hinge_(jaw_hinge),
-      info_{{{"stiffness", "Pa/m", stiffness, 0, 1e12, 0, false, true},
+      info_{{{"stiffness", "Pa/m", stiffness, 0, 1e12, 0, false, true, 2e8},
              {"damping", "s/m", damping, 0, 1e4, 0}}} {}
 
 std::vector<std::string> Contact::borrows() const {

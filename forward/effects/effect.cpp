@@ -2,6 +2,14 @@
 
 namespace genio {
 
+std::vector<Strength> Effect::strengths() const {
+  std::vector<Strength> result;
+  const auto info = parameters();
+  for (size_t k = 0; k < info.size(); ++k)
+    if (info[k].typical > 0 && !info[k].detail) result.push_back({"", {{int(k)}}});
+  return result;
+}
+
 void Effect::add_viscous_force_slope(const Positions& x, const Vector& v, EffectParameters p,
                                      const Matrix& along, Stiffness&, Matrix& df) const {
   constexpr double longest = 1e-7;  // displacement of a node [m]

@@ -22,6 +22,19 @@ struct ParameterInfo {
   double absent = 0;     ///< value at which what it stands for vanishes
   bool load = false;     ///< drives the shape away from rest; continuation brings it up from absent
   bool penalty = false;  ///< enforces a constraint; a far solve starts with a softer one
+  /// How far from `absent` it tends to be where what it stands for is there; 0: nobody asks whether
+  /// it is. What a search for missing effects believes of it before it sees data.
+  double typical = 0;
+  /// Says where or how large, and counts only where some strength of its effect is off its absent
+  /// value; `typical` is then how uncertain it is.
+  bool detail = false;
+};
+
+/// One way in which an effect may show: numbers let off their absent values at once.
+struct Strength {
+  std::string where;  ///< "GGP_L"; empty where the effect has but one way
+  /// Of each number, the parameters that take its value.
+  std::vector<std::vector<int>> numbers;
 };
 
 /// Values of one effect's parameters, in the order of Effect::parameters(), then of those it
@@ -45,6 +58,10 @@ class Effect {
   /// Parameters of other effects that this one reads ("muscles.GGP_L"). Their values follow its
   /// own, and add_force_derivative() is asked for them by their place there too.
   virtual std::vector<std::string> borrows() const { return {}; }
+
+  /// The ways in which it may be what a model lacks. Here: each parameter that has a typical value
+  /// and is no detail, by itself.
+  virtual std::vector<Strength> strengths() const;
 
   /// Potential energy [J]; +infinity where tissue would be turned inside out.
   virtual double energy(const Positions& x, EffectParameters p) const = 0;

@@ -18,7 +18,7 @@ auto stretch(double force) {
 
 ExtraMuscle::ExtraMuscle(const HexMesh& mesh, const Vec3& from, const Vec3& to, double radius,
                          double force)
-    : info_{{{"force", "N", force, 0, 50, 0, true}}} {
+    : info_{{{"force", "N", force, 0, 50, 0, true, false, 3}}} {
   const double length = (to - from).norm();
   if (!(length > 0) || !(radius > 0))
     throw InputError(

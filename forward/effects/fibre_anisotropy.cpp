@@ -37,7 +37,7 @@ Vec3 fibre_direction(const Muscle& muscle, const Positions& rest, const Vec3& po
 
 FibreAnisotropy::FibreAnisotropy(const HexMesh& mesh, const std::vector<Muscle>& muscles,
                                  double modulus)
-    : info_{{{"modulus", "Pa", modulus, 0, 1e6, 0}}} {
+    : info_{{{"modulus", "Pa", modulus, 0, 1e6, 0, false, false, 5e3}}} {
   const Positions rest = rest_positions(mesh);
   std::vector<int> families(mesh.elements.size(), 0);
   for (const Muscle& m : muscles)

@@ -54,7 +54,7 @@ LengthEnergy energy_of(const FibreSegment& s, double length, double width, doubl
 
 ForceLength::ForceLength(std::vector<Muscle> muscles, double strength, double width, double optimum)
     : muscles_(std::move(muscles)),
-      info_{{{"strength", "1", strength, 0, 1, 0},
+      info_{{{"strength", "1", strength, 0, 1, 0, false, false, 1},
              {"width", "1", width, 0.05, 5, width},
              {"optimum", "1", optimum, 0.3, 2, optimum}}} {}
 

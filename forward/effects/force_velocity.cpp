@@ -47,7 +47,7 @@ void add_pull(const FibreSegment& s, const Vec3& pull, Forces& f) {
 
 ForceVelocity::ForceVelocity(std::vector<Muscle> muscles, double strength, double max_velocity)
     : muscles_(std::move(muscles)),
-      info_{{{"strength", "1", strength, 0, 1, 0},
+      info_{{{"strength", "1", strength, 0, 1, 0, false, false, 1},
              {"max_velocity", "1/s", max_velocity, 0.1, 100, max_velocity}}} {}
 
 std::vector<std::string> ForceVelocity::borrows() const { return command_names(muscles_); }

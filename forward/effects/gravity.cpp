@@ -1,29 +1,51 @@
 #include "forward/effects/gravity.hpp"
 
 #include <Eigen/Dense>
+#include <numbers>
 
 namespace genio {
+namespace {
 
-Gravity::Gravity(const NodeMatrix& mass, const Vec3& acceleration)
+constexpr double degree = std::numbers::pi / 180;
+
+/// From the frame of an upright head to that of one tilted backwards by `pitch` [deg].
+Mat3 tilt(double pitch) {
+  return Eigen::AngleAxisd(-pitch * degree, Vec3::UnitY()).toRotationMatrix();
+}
+
+}  // namespace
+
+Gravity::Gravity(const NodeMatrix& mass, const Vec3& acceleration, double pitch)
     : mass_(mass * Vector::Ones(mass.cols())) {
   const char* axis[] = {"x", "y", "z"};
-  for (int i = 0; i < 3; ++i) info_[i] = {axis[i], "m/s^2", acceleration[i], -20, 20, 0, true};
+  for (size_t i = 0; i < 3; ++i)
+    info_[i] = {axis[i], "m/s^2", acceleration[Eigen::Index(i)], -20, 20, 0, true, false, 9.81};
+  info_[3] = {"pitch", "deg", pitch, -180, 180, 0};
 }
 
 double Gravity::energy(const Positions& x, EffectParameters p) const {
-  const Vec3 g(p[0], p[1], p[2]);
+  const Vec3 g = tilt(p[3]) * Vec3(p[0], p[1], p[2]);
   double e = 0;
   for (Eigen::Index a = 0; a < mass_.size(); ++a) e -= mass_[a] * g.dot(node_position(x, int(a)));
   return e;
 }
 
-void Gravity::add_force(const Positions&, EffectParameters p, Forces& f) const {
-  const Vec3 g(p[0], p[1], p[2]);
+void Gravity::add_weight(const Vec3& g, Forces& f) const {
   for (Eigen::Index a = 0; a < mass_.size(); ++a) f.segment<3>(3 * a) += mass_[a] * g;
 }
 
-void Gravity::add_force_derivative(const Positions&, EffectParameters, int k, Forces& df) const {
-  for (Eigen::Index a = 0; a < mass_.size(); ++a) df[3 * a + k] += mass_[a];
+void Gravity::add_force(const Positions&, EffectParameters p, Forces& f) const {
+  add_weight(tilt(p[3]) * Vec3(p[0], p[1], p[2]), f);
+}
+
+void Gravity::add_force_derivative(const Positions&, EffectParameters p, int k, Forces& df) const {
+  const Mat3 turn = tilt(p[3]);
+  if (k < 3) {
+    add_weight(turn.col(k), df);
+    return;
+  }
+  const Vec3 g = turn * Vec3(p[0], p[1], p[2]);
+  add_weight(-degree * Vec3::UnitY().cross(g), df);
 }
 
 }  // namespace genio

@@ -14,8 +14,8 @@ HyoidMobility::HyoidMobility(const std::vector<int>& nodes, const Positions& res
                              double compliance_z, double stiffness_xy, double mass)
     : node_(nodes.at(0)),
       rest_(node_position(rest, nodes.at(0))),
-      info_{{{"compliance_z", "m/N", compliance_z, 0, 1, 0},
-             {"stiffness_xy", "N/m", stiffness_xy, 0, 1e5, 0},
+      info_{{{"compliance_z", "m/N", compliance_z, 0, 1, 0, false, false, 2e-3},
+             {"stiffness_xy", "N/m", stiffness_xy, 0, 1e5, 0, false, false, 500},
              {"mass", "kg", mass, 0, 1, mass}}} {}
 
 double HyoidMobility::energy(const Positions& x, EffectParameters p) const {

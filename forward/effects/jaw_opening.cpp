@@ -11,8 +11,8 @@ JawOpening::JawOpening(std::vector<int> nodes, const Positions& rest, const JawM
     : nodes_(std::move(nodes)),
       rest_(rest),
       hinge_(motion.hinge),
-      info_{{{"angle", "deg", motion.angle, -5, 40, 0, true},
-             {"slide", "m", motion.slide, -0.01, 0.02, 0, true}}} {}
+      info_{{{"angle", "deg", motion.angle, -5, 40, 0, true, false, 4},
+             {"slide", "m", motion.slide, -0.01, 0.02, 0, true, false, 3e-3}}} {}
 
 double JawOpening::energy(const Positions& x, EffectParameters p) const {
   const JawMotion jaw = motion(p);

@@ -11,7 +11,8 @@ class MaterialNonlinearity final : public TissueEffect {
  public:
   MaterialNonlinearity(const HexMesh& mesh, double a20, double a30)
       : TissueEffect(mesh),
-        info_{{{"a20", "Pa", a20, -1e4, 1e5, 0}, {"a30", "Pa", a30, -1e4, 1e5, 0}}} {}
+        info_{{{"a20", "Pa", a20, -1e4, 1e5, 0, false, false, 2e3},
+               {"a30", "Pa", a30, -1e4, 1e5, 0}}} {}
 
   std::string_view name() const override { return "material_nonlinearity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }

@@ -46,7 +46,7 @@ MucosaLayer::State MucosaLayer::state(const Point& p, const Positions& x) {
 
 MucosaLayer::MucosaLayer(const HexMesh& mesh, const std::vector<Quad>& faces, double a10,
                          double a20, double thickness)
-    : info_{{{"a10", "Pa", a10, 0, 1e7, 0},
+    : info_{{{"a10", "Pa", a10, 0, 1e7, 0, false, false, 1e4},
              {"a20", "Pa", a20, 0, 1e7, 0},
              {"thickness", "m", thickness, 0, 1e-2, 0}}} {
   for (const Quad& face : faces)

@@ -4,7 +4,8 @@ namespace genio {
 
 Viscosity::Viscosity(NodeMatrix mass, double alpha, double beta)
     : mass_(std::move(mass)),
-      info_{{{"alpha", "1/s", alpha, 0, 1e4, 0}, {"beta", "s", beta, 0, 10, 0}}} {}
+      info_{{{"alpha", "1/s", alpha, 0, 1e4, 0, false, false, 40},
+             {"beta", "s", beta, 0, 10, 0, false, false, 0.03}}} {}
 
 void Viscosity::add_viscous_force(const Positions&, const Vector& v, EffectParameters p,
                                   Forces& f) const {

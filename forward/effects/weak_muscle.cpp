@@ -7,10 +7,22 @@ namespace genio {
 WeakMuscle::WeakMuscle(std::vector<Muscle> muscles, const std::vector<double>& loss)
     : muscles_(std::move(muscles)) {
   for (size_t k = 0; k < muscles_.size(); ++k)
-    info_.push_back({muscles_[k].name, "1", loss[k], 0, 1});
+    info_.push_back({muscles_[k].name, "1", loss[k], 0, 1, 0, false, false, 0.4});
 }
 
 std::vector<std::string> WeakMuscle::borrows() const { return command_names(muscles_); }
+
+std::vector<Strength> WeakMuscle::strengths() const {
+  std::vector<Strength> result;
+  for (size_t k = 0; k < muscles_.size(); ++k) {
+    result.push_back({muscles_[k].name, {{int(k)}}});
+    const std::string both = bilateral_name(muscles_[k].name);
+    for (size_t j = 0; j < k; ++j)
+      if (bilateral_name(muscles_[j].name) == both)
+        result.push_back({both, {{int(j), int(k)}}});
+  }
+  return result;
+}
 
 double WeakMuscle::energy(const Positions& x, EffectParameters p) const {
   double e = 0;

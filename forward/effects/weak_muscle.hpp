@@ -15,6 +15,8 @@ class WeakMuscle final : public Effect {
   std::string_view name() const override { return "weak_muscle"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
   std::vector<std::string> borrows() const override;
+  /// Each muscle of one side, and of both.
+  std::vector<Strength> strengths() const override;
   double energy(const Positions& x, EffectParameters p) const override;
   void add_force(const Positions& x, EffectParameters p, Forces& f) const override;
   void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const override;

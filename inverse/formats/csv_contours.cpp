@@ -14,7 +14,8 @@ namespace {
 
 const std::vector<std::string> known_columns = {"frame",  "point",     "x_mm",      "y_mm",
                                                 "z_mm",   "sigma_mm",  "kind",      "label",
-                                                "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm"};
+                                                "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm",
+                                                "slice"};
 
 }  // namespace
 
@@ -70,6 +71,12 @@ ContourFile read_csv_contours(const std::string& path) {
         if (!column.contains(needed))
           lines.fail(fmt::format("a volume point needs column '{}'", needed));
       p.rest = 1e-3 * Vec3(number("rest_x_mm"), number("rest_y_mm"), number("rest_z_mm"));
+    }
+    if (column.contains("slice")) {
+      const double slice = number("slice");
+      if (slice != std::floor(slice) || std::abs(slice) > 1e6)
+        lines.fail(fmt::format("field slice: {} is not a whole number", slice));
+      p.slice = int(slice);
     }
     if (column.contains("label") && f.label.empty()) f.label = trimmed(fields[column["label"]]);
     if (column.contains("time_s") && !trimmed(fields[column["time_s"]]).empty())

@@ -284,7 +284,7 @@ TEST(Gravity, PullsWithTheWholeWeight) {
   const Model m = test::small_model();
   const Gravity g(tissue_mass(m.mesh, 1000), Vec3(0, 0, -10));
   Forces f = Forces::Zero(m.rest.size());
-  const double p[] = {0, 0, -10};
+  const double p[] = {0, 0, -10, 0};
   g.add_force(m.rest, p, f);
   double sum = 0;
   for (Eigen::Index i = 2; i < f.size(); i += 3) sum += f[i];

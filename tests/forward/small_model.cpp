@@ -44,7 +44,7 @@ ModelDescription small_block() {
   palate.triangles = {{0, 1, 2}, {0, 2, 3}};
   d.palate = palate;
   d.effects["elasticity"] = {{"a10", 192}, {"a20", 90}, {"kappa", 19200}};
-  d.effects["gravity"] = {{"x", 1}, {"y", 0.5}, {"z", -9.81}};
+  d.effects["gravity"] = {{"x", 1}, {"y", 0.5}, {"z", -9.81}, {"pitch", 20}};
   d.effects["palate_contact"] = {{"stiffness", 1e7}};
   return d;
 }

@@ -1,0 +1,149 @@
+#include "discrepancy/error_model.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "forward/hex8.hpp"
+
+namespace genio {
+namespace {
+
+/// Contour that each residual's point was traced with: -1 a point by itself.
+std::vector<int> contours(const Target& t) {
+  std::vector<int> of_point(t.curve.size(), 0);
+  of_point.resize(t.curve.size() + t.flesh.size(), -1);
+  for (const auto& p : t.surface) of_point.push_back(1 + p.slice);
+  return of_point;
+}
+
+/// d N_b / dX at each node, the mean over its elements: pairs (b, gradient).
+std::vector<std::vector<std::pair<int, Vec3>>> nodal_gradients(const HexMesh& mesh) {
+  std::vector<std::vector<std::pair<int, Vec3>>> result(mesh.nodes.size());
+  std::vector<int> count(mesh.nodes.size(), 0);
+  for (const auto& e : mesh.elements)
+    for (int a : e) ++count[size_t(a)];
+  for (const auto& e : mesh.elements)
+    for (size_t a = 0; a < 8; ++a) {
+      // At the corner's Gauss point: at a corner itself an element may be folded.
+      const auto local = hex8::derivatives(hex8::gauss_points()[a]);
+      const auto corner = [&](int b) -> const Vec3& { return mesh.nodes[size_t(e[size_t(b)])]; };
+      const Mat3 inverse = hex8::jacobian(corner, local).inverse();
+      for (size_t b = 0; b < 8; ++b)
+        result[size_t(e[a])].emplace_back(
+            e[b], inverse.transpose() * local.row(Eigen::Index(b)).transpose() /
+                      double(count[size_t(e[a])]));
+    }
+  return result;
+}
+
+/// The muscles alone at a shape.
+void muscles_at(const Model& model, const FittedCondition& c, Forces& f, Stiffness& k) {
+  f = Forces::Zero(c.x.size());
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    if (model.effects[e]->name() == "muscles") {
+      const auto p = effect_parameters(model, c.parameters, int(e));
+      model.effects[e]->add_force(c.x, p, f);
+      model.effects[e]->add_stiffness(c.x, p, k);
+    }
+}
+
+}  // namespace
+
+Matrix noise_covariance(const Target& target, const Residuals& r, double length) {
+  const auto contour = contours(target);
+  const auto n = Eigen::Index(r.rows.size());
+  Matrix c = Matrix::Identity(n, n);
+  if (length <= 0) return c;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const int a = r.rows[size_t(i)].point, b = r.rows[size_t(j)].point;
+      if (contour[size_t(a)] < 0 || contour[size_t(a)] != contour[size_t(b)]) continue;
+      const double apart = (r.places[size_t(a)] - r.places[size_t(b)]).norm();
+      c(i, j) = c(j, i) = std::exp(-apart / length);
+    }
+  return c;
+}
+
+Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matrix& influence) {
+  Forces f;
+  Stiffness k(model.pattern);
+  muscles_at(model, c, f, k);
+  const Matrix turned = k.multiply_columns(influence.transpose());  // 3 n x rows
+  const auto gradients = nodal_gradients(model.mesh);
+  Matrix result = Matrix::Zero(influence.rows(), influence.cols());
+  for (size_t a = 0; a < gradients.size(); ++a) {
+    const auto at = 3 * Eigen::Index(a);
+    const Vec3 pull = f.segment<3>(at);
+    Mat3 stretch = Mat3::Zero();
+    for (const auto& [b, g] : gradients[a]) stretch += node_position(c.x, b) * g.transpose();
+    auto block = result.middleCols<3>(at);
+    block -= turned.middleRows<3>(at).transpose() * stretch;
+    if (pull.isZero(0)) continue;
+    for (const auto& [b, g] : gradients[a])
+      block += influence.middleCols<3>(3 * b) * pull * g.transpose();
+  }
+  return result;
+}
+
+Matrix fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis) {
+  // A mean angle of two Gaussian parts of sd s is s sqrt(pi / 2); the slope of a Gaussian field of
+  // sd a and length l is a / l.
+  const double slope = doubt.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
+  const double variance = std::pow(slope * doubt.fibre_length, 2);
+  const double scale = 0.5 / (doubt.fibre_length * doubt.fibre_length);
+  const auto n = Eigen::Index(model.mesh.nodes.size());
+  Matrix c(n, n);
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (Eigen::Index b = 0; b <= a; ++b) {
+      const Vec3 &x = model.mesh.nodes[size_t(a)], &y = model.mesh.nodes[size_t(b)];
+      const Vec3 image(y[0], -y[1], y[2]);
+      const double same = std::exp(-scale * (x - y).squaredNorm());
+      const double across = std::exp(-scale * (x - image).squaredNorm());
+      c(a, b) = c(b, a) = 0.5 * variance * (same + (axis == 1 ? -across : across));
+    }
+  return c;
+}
+
+Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<Matrix>& influences,
+                           const Corrections& corrections, const ModelDoubt& doubt) {
+  Eigen::Index rows = 0;
+  std::vector<Eigen::Index> first;
+  for (const Matrix& a : influences) first.push_back(rows), rows += a.rows();
+  Matrix covariance = Matrix::Zero(rows, rows);
+  Vector tissue(rows), mesh = Vector::Zero(rows);
+  Matrix turned(rows, influences.front().cols());
+  for (size_t k = 0; k < influences.size(); ++k) {
+    const FittedCondition& c = fit.conditions[k];
+    const Model& model = study.model(k);
+    const auto count = influences[k].rows();
+    auto block = covariance.block(first[k], first[k], count, count);
+    block += noise_covariance(study.condition(k).target, c.residuals,
+                              study.observations().noise_correlation);
+    turned.middleRows(first[k], count) = fibre_influence(model, c, influences[k]);
+    Vector by_scale = Vector::Zero(c.x.size());
+    for (const char* name : {"elasticity.a10", "elasticity.a20"}) {
+      const int p[] = {parameter_index(model, name)};
+      by_scale += c.parameters[p[0]] * force_derivatives(model, c.x, c.parameters, p).col(0);
+    }
+    tissue.segment(first[k], count) = influences[k] * by_scale;
+    double size = 0;
+    if (!corrections.empty()) {
+      mesh.segment(first[k], count) = corrections[k];
+      for (Eigen::Index i = 0; i < count; ++i)
+        size += std::pow(corrections[k][i] / c.residuals.rows[size_t(i)].scale, 2) / double(count);
+    }
+    block += model_error_covariance(
+        c.residuals, std::max(doubt.least_mesh_error, doubt.correction_sd * std::sqrt(size)),
+        doubt.mesh_length);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const Matrix part = turned(Eigen::all, Eigen::seqN(axis, turned.cols() / 3, 3));
+    covariance += part * fibre_covariance(study.model(0), doubt, axis) * part.transpose();
+  }
+  covariance += std::pow(doubt.tissue_sd, 2) * tissue * tissue.transpose();
+  covariance += std::pow(doubt.correction_sd, 2) * mesh * mesh.transpose();
+  return covariance;
+}
+
+}  // namespace genio

@@ -1,0 +1,181 @@
+#include "discrepancy/joint_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "discrepancy/joint_problem.hpp"
+#include "inverse/box_gaussian.hpp"
+#include "inverse/multi_start.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double interval = 1.645;  // standard deviations of a 90 % interval
+constexpr double on_bound = 1e-3;   // of an unknown
+
+std::vector<Eigen::Index> open_unknowns(const Vector& lower, const Vector& upper) {
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index i = 0; i < lower.size(); ++i)
+    if (lower[i] < upper[i]) open.push_back(i);
+  return open;
+}
+
+/// What is expected of the unknowns of condition k: their prior's mode, or, where nothing is known
+/// of the forces, an inversion of the condition by itself.
+Vector first_guess(Study& study, size_t k, JointProblem::Part& part) {
+  const PriorTerms& prior = part.objective.prior();
+  Vector z = prior.lower;
+  const auto open = prior.open();
+  if (!open.empty()) z(open) = prior.density().mode;
+  if (study.condition(k).forces) return z;
+  InferOptions options;
+  options.bilateral = study.bilateral(k);
+  const Answer answer = infer_from_starts(study.model(k), study.condition(k).target,
+                                          study.prior(k), study.inferring(k), options);
+  if (answer.activations.size() == 0) return z;
+  const auto alone = unknowns(study.model(k), study.prior(k), study.bilateral(k));
+  const auto& commands = part.objective.commands();
+  for (size_t i = 0; i < commands.size(); ++i)
+    for (size_t j = 0; j < alone.size(); ++j)
+      if (alone[j].name == commands[i].name)
+        z[Eigen::Index(i)] = answer.activations[Eigen::Index(j)];
+  part.options.start_shape = answer.shape;
+  return z;
+}
+
+Vector start_of(const FittedCondition& before, const std::vector<Command>& commands,
+                const std::map<std::string, double>& shared, Vector z) {
+  for (size_t i = 0; i < commands.size(); ++i) {
+    const Command& c = commands[i];
+    for (size_t j = 0; j < before.commands.size(); ++j)
+      if (before.commands[j].name == c.name)
+        z[Eigen::Index(i)] = before.z[Eigen::Index(j)] * before.commands[j].scale / c.scale;
+    if (const auto s = shared.find(c.name); s != shared.end())
+      z[Eigen::Index(i)] = s->second / c.scale;
+  }
+  return z;
+}
+
+double log_prior_mass(const Matrix& rows, const Vector& values, const JointFit& f,
+                      const std::vector<Eigen::Index>& open) {
+  const Matrix a = rows(Eigen::all, open);
+  const Matrix h = a.transpose() * a;
+  Vector fixed = f.u;
+  for (auto i : open) fixed[i] = 0;
+  const Vector centre = h.llt().solve(a.transpose() * (values - rows * fixed));
+  double mass = log_integral(about(centre, h, f.lower(open), f.upper(open)));
+  // Half of a shared belief may lie beyond the value at which it vanishes.
+  for (size_t k = 0; k < open.size(); ++k)
+    if (open[k] >= f.own && std::abs(centre[Eigen::Index(k)] - f.lower[open[k]]) < 1e-9)
+      mass -= std::log(2.0);
+  return mass;
+}
+
+void summarise_shared(JointFit& f, const Matrix& covariance,
+                      const std::vector<Eigen::Index>& open) {
+  const FittedCondition& c = f.conditions.front();
+  for (size_t i = 0; i < c.commands.size(); ++i) {
+    if (c.which[i] < f.own) continue;
+    const Command& command = c.commands[i];
+    SharedEstimate e{command.name, command.unit, c.z[Eigen::Index(i)] * command.scale};
+    const auto at = std::find(open.begin(), open.end(), c.which[i]);
+    if (at != open.end()) e.sd = command.scale * std::sqrt(covariance(at - open.begin(), at - open.begin()));
+    const double low = command.lower * command.scale, high = command.upper * command.scale;
+    e.low = std::max(low, e.value - interval * e.sd);
+    e.high = std::min(high, e.value + interval * e.sd);
+    e.at_bound = c.z[Eigen::Index(i)] < command.lower + on_bound ||
+                 c.z[Eigen::Index(i)] > command.upper - on_bound;
+    f.shared.push_back(e);
+  }
+}
+
+}  // namespace
+
+Vector JointFit::residuals() const {
+  Eigen::Index rows = 0;
+  for (const auto& c : conditions) rows += c.residuals.values.size();
+  Vector r(rows);
+  rows = 0;
+  for (const auto& c : conditions) {
+    r.segment(rows, c.residuals.values.size()) = c.residuals.values;
+    rows += c.residuals.values.size();
+  }
+  return r;
+}
+
+Matrix JointFit::jacobian() const {
+  Matrix j = Matrix::Zero(residuals().size(), u.size());
+  Eigen::Index rows = 0;
+  for (const auto& c : conditions) {
+    j.middleRows(rows, c.jacobian.rows())(Eigen::all, c.which) = c.jacobian;
+    rows += c.jacobian.rows();
+  }
+  return j;
+}
+
+JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* covariance,
+             const Corrections& corrections, const JointFit* start,
+             const std::map<std::string, double>& shared_start) {
+  JointProblem problem(study, shared, covariance, corrections, start);
+  JointFit f;
+  f.lower = problem.lower(), f.upper = problem.upper(), f.own = problem.own();
+  Vector u = Vector::Zero(f.lower.size());
+  for (size_t k = 0; k < problem.size(); ++k) {
+    auto& part = problem.part(k);
+    Vector z = start ? Vector(part.objective.prior().lower) : first_guess(study, k, part);
+    const auto& commands = part.objective.commands();
+    for (size_t i = 0; i < commands.size(); ++i)
+      if (const auto p = shared.parameters.find(commands[i].name); p != shared.parameters.end())
+        z[Eigen::Index(i)] = p->second.mean / commands[i].scale;
+      else if (commands[i].kind == Command::Kind::pose)
+        z[Eigen::Index(i)] = 0;
+    if (start) z = start_of(start->conditions[k], commands, shared_start, z);
+    u(part.which) = z;
+  }
+  u = u.cwiseMax(f.lower).cwiseMin(f.upper);
+  const DescentResult r = descend(problem, u, {40, 1e-3, {}});
+  f.converged = r.converged, f.message = r.message, f.iterations = r.iterations;
+  if (r.u.size() == 0) return f;
+  f.u = r.u, f.value = r.value;
+  f.prior_rows = problem.prior_rows(), f.prior_values = problem.prior_values();
+  for (size_t k = 0; k < problem.size(); ++k) {
+    auto& part = problem.part(k);
+    const Vector z = problem.of_part(f.u, k);
+    const auto* p = part.objective.derivatives(z);
+    if (!p) {
+      f.converged = false;
+      f.message = fmt::format("{}: {}", study.condition(k).name, part.objective.last_failure());
+      return f;
+    }
+    f.conditions.push_back({part.objective.commands(), part.which, z, p->equilibrium.x,
+                            p->equilibrium.parameters, p->residuals, p->positions, p->jacobian});
+    f.conditions.back().residuals.values = part.residuals(*p);
+  }
+  const auto open = open_unknowns(f.lower, f.upper);
+  if (open.empty()) {
+    f.log_evidence = -f.value;
+    return f;
+  }
+  const Matrix j = problem.whitened(f.jacobian())(Eigen::all, open);
+  const Matrix a = problem.prior_rows()(Eigen::all, open);
+  const Matrix h = j.transpose() * j + a.transpose() * a;
+  const Vector slope = j.transpose() * problem.whitened(f.residuals()).col(0) +
+                       a.transpose() * (problem.prior_rows() * f.u - problem.prior_values());
+  BoxGaussian density{f.u(open), slope, h, f.lower(open), f.upper(open)};
+  for (Eigen::Index i = 0; i < slope.size(); ++i)
+    if (pressed(density, i) == 0) density.slope[i] = 0;
+  f.log_evidence =
+      -f.value + log_integral(density) - log_prior_mass(problem.prior_rows(), problem.prior_values(), f, open);
+  // Unknowns that a bound presses on do not move.
+  std::vector<Eigen::Index> free, at;
+  for (size_t i = 0; i < open.size(); ++i)
+    if (pressed(density, Eigen::Index(i)) == 0)
+      free.push_back(open[i]), at.push_back(Eigen::Index(i));
+  const Matrix covariance_of_free = Matrix(h(at, at)).llt().solve(
+      Matrix::Identity(Eigen::Index(at.size()), Eigen::Index(at.size())));
+  summarise_shared(f, covariance_of_free, free);
+  return f;
+}
+
+}  // namespace genio

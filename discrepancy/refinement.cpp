@@ -1,0 +1,113 @@
+#include "discrepancy/refinement.hpp"
+
+#include "forward/mirror.hpp"
+#include "forward/refine.hpp"
+#include "forward/refined_model.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double tolerance = 1e-6;
+
+/// Parameters of the condition by name, those of left and right evened out where `even`.
+Parameters evened(const Model& to, const Model& from, const Parameters& p, bool even) {
+  Parameters q = default_parameters(to);
+  for (Eigen::Index k = 0; k < q.size(); ++k) {
+    const std::string& name = to.parameters[size_t(k)].name;
+    const std::string both = bilateral_name(name);
+    double sum = 0;
+    int count = 0;
+    for (size_t i = 0; i < from.parameters.size(); ++i) {
+      const std::string& other = from.parameters[i].name;
+      if (other == name || (even && bilateral_name(other) == both))
+        sum += p[Eigen::Index(i)], ++count;
+    }
+    if (count > 0) q[k] = sum / count;
+  }
+  return q;
+}
+
+/// Those of the half: an unpaired muscle keeps half of its force.
+Parameters halved(const Model& half, const Model& whole, const Parameters& p) {
+  Parameters q = default_parameters(half);
+  for (Eigen::Index k = 0; k < q.size(); ++k) {
+    const std::string& name = half.parameters[size_t(k)].name;
+    const bool unpaired = name.starts_with("muscles.") && bilateral_name(name) == name;
+    q[k] = (unpaired ? 0.5 : 1.0) * p[parameter_index(whole, name)];
+  }
+  return q;
+}
+
+ModelDescription geometry(ModelDescription d) {
+  d.effects = {{"elasticity", d.effects.at("elasticity")}};
+  d.muscles.clear();
+  return d;
+}
+
+/// Node of `part` that lies where each node of `whole`, or its mirror image, does.
+std::vector<int> nodes_of(const HexMesh& part, const HexMesh& whole) {
+  // Cells of 10 nm; the offset keeps round coordinates off their edges.
+  using Key = std::array<long long, 3>;
+  const auto key = [](const Vec3& x) {
+    const auto cell = [](double v) { return std::llround(v * 1e8 + 0.3137); };
+    return Key{cell(x[0]), cell(std::abs(x[1])), cell(x[2])};
+  };
+  std::map<Key, int> at;
+  for (size_t a = 0; a < part.nodes.size(); ++a) at[key(part.nodes[a])] = int(a);
+  std::vector<int> result;
+  for (const Vec3& x : whole.nodes) result.push_back(at.at(key(x)));
+  return result;
+}
+
+}  // namespace
+
+Refinement::Tongues::Tongues(const ModelDescription& d)
+    : coarse(build_model(d, d.name)),
+      mirror(mirror_of(coarse)),
+      fine(build_model(refined(mirror ? *mirror->half.description : d), d.name + ", refined")),
+      seen(build_model(geometry(refined(d)), d.name + ", refined")),
+      coarse_workspace(coarse),
+      fine_workspace(fine) {
+  if (mirror) node = nodes_of(fine.mesh, seen.mesh);
+}
+
+Vector Refinement::correction(const Model& fitted, const FittedCondition& c, size_t k) {
+  auto& made = tongues_[study_.tongue(k)];
+  if (!made) made = std::make_unique<Tongues>(study_.known(k));
+  Tongues& t = *made;
+  SolveOptions options;
+  options.tolerance = tolerance;
+  const Parameters p = evened(t.coarse, fitted, c.parameters, t.mirror != nullptr);
+  const Vector none = Vector::Zero(c.residuals.values.size());
+  const Equilibrium rough = solve_equilibrium(t.coarse, p, c.x, t.coarse_workspace, options);
+  if (!rough) return none;
+  const Model& near = t.mirror ? t.mirror->half : t.coarse;
+  const Positions start = t.mirror ? Positions(t.mirror->right_half(rough.x)) : rough.x;
+  HexMesh moved = near.mesh;
+  for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(start, int(a));
+  const Equilibrium smooth = solve_equilibrium(
+      t.fine, t.mirror ? halved(t.fine, t.coarse, p) : evened(t.fine, t.coarse, p, false),
+      rest_positions(refined(moved, near.description->supports).mesh), t.fine_workspace, options);
+  if (!smooth) return none;
+  Positions x = smooth.x;
+  if (t.mirror) {
+    x.resize(t.seen.rest.size());
+    for (size_t a = 0; a < t.node.size(); ++a) {
+      x.segment<3>(3 * Eigen::Index(a)) = node_position(smooth.x, t.node[a]);
+      if (t.seen.mesh.nodes[a][1] < 0) x[3 * Eigen::Index(a) + 1] *= -1;
+    }
+  }
+  const HeadPose pose = head_pose(c.commands, c.z);
+  const Target& target = study_.condition(k).target;
+  return Comparison(t.seen, target)(x, pose).values -
+         Comparison(t.coarse, target)(rough.x, pose).values;
+}
+
+Corrections Refinement::corrections(const Study& fitted, const JointFit& fit) {
+  Corrections result;
+  for (size_t k = 0; k < fit.conditions.size(); ++k)
+    result.push_back(correction(fitted.model(k), fit.conditions[k], k));
+  return result;
+}
+
+}  // namespace genio

@@ -1,0 +1,185 @@
+#include "discrepancy/score.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "inverse/posterior.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double on_bound = 2e-4;     // an unknown this near a bound sits at it
+constexpr double invisible = 1e-3;    // whitened change at typical strength
+constexpr double nine_in_ten = 1.28;  // standard deviations
+
+double normal_tail(double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); }
+
+/// z with normal_tail(z) = p.
+double normal_quantile(double p) {
+  double low = 0, high = 40;
+  for (int i = 0; i < 80; ++i) {
+    const double mid = 0.5 * (low + high);
+    (normal_tail(mid) > p ? low : high) = mid;
+  }
+  return low;
+}
+
+FreeNumber pose_number(const char* name, const char* unit, double typical) {
+  FreeNumber n{name, {name}, {}};
+  n.info.name = name, n.info.unit = unit;
+  n.info.lower = -4 * typical, n.info.upper = 4 * typical, n.info.typical = typical;
+  return n;
+}
+
+/// The parts of the strengths that may be off their absent value in either direction.
+bool one_sided(const FreeNumber& n) { return n.info.absent <= n.info.lower; }
+
+}  // namespace
+
+std::vector<Candidate> candidates(const ModelDescription& description,
+                                  const Observations& observations) {
+  std::vector<Candidate> result;
+  for (Hypothesis& h : hypotheses(description)) {
+    Candidate c{h.effect, h.where, {}, h.strengths};
+    c.hypothesis = std::move(h);
+    result.push_back(std::move(c));
+  }
+  if (!observations.head_pose)
+    result.push_back({"head_pose",
+                      "",
+                      {},
+                      {pose_number("x", "m", 1e-3), pose_number("z", "m", 1e-3),
+                       pose_number("turn", "rad", 0.02)}});
+  return result;
+}
+
+Projection::Projection(const JointFit& f, const Eigen::LLT<Matrix>& covariance)
+    : covariance_(covariance) {
+  const Vector r = covariance_.matrixL().solve(f.residuals());
+  const Vector prior = f.prior_rows * f.u - f.prior_values;
+  residuals_.resize(r.size() + prior.size());
+  residuals_ << r, prior;
+  const Matrix j = covariance_.matrixL().solve(f.jacobian());
+  Matrix all(residuals_.size(), f.u.size());
+  all << j, f.prior_rows;
+  const Vector slope = all.transpose() * residuals_;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < f.u.size(); ++i) {
+    if (f.lower[i] == f.upper[i]) continue;
+    if (f.u[i] < f.lower[i] + on_bound && slope[i] > 0) continue;
+    if (f.u[i] > f.upper[i] - on_bound && slope[i] < 0) continue;
+    free.push_back(i);
+  }
+  const Matrix tangent = all(Eigen::all, free);
+  if (!free.empty()) {
+    const Eigen::LLT<Matrix> h(tangent.transpose() * tangent);
+    basis_ = h.matrixL().solve(tangent.transpose()).transpose();
+  } else {
+    basis_ = Matrix::Zero(residuals_.size(), 0);
+  }
+  chi_square_ = r.squaredNorm();
+  dof_ = double(r.size()) - basis_.topRows(r.size()).squaredNorm();
+}
+
+Matrix Projection::operator()(const Matrix& columns) const {
+  Matrix all = Matrix::Zero(residuals_.size(), columns.cols());
+  all.topRows(columns.rows()) = covariance_.matrixL().solve(columns);
+  return all - basis_ * (basis_.transpose() * all);
+}
+
+Matrix signature(const Candidate& candidate, const Study& study, const JointFit& fit,
+                 const std::vector<Matrix>& influences) {
+  Eigen::Index rows = 0;
+  for (const Matrix& a : influences) rows += a.rows();
+  const auto count = Eigen::Index(candidate.strengths.size());
+  Matrix result(rows, count);
+  rows = 0;
+  for (size_t k = 0; k < influences.size(); ++k) {
+    const FittedCondition& c = fit.conditions[k];
+    auto block = result.middleRows(rows, influences[k].rows());
+    rows += influences[k].rows();
+    if (!candidate.hypothesis) {
+      block = c.residuals.pose;
+      continue;
+    }
+    const Effect& effect = *candidate.hypothesis->made;
+    const auto info = effect.parameters();
+    std::vector<double> values;
+    for (const ParameterInfo& i : info) values.push_back(i.value);
+    for (const std::string& name : effect.borrows())
+      values.push_back(c.parameters[parameter_index(study.model(k), name)]);
+    for (Eigen::Index s = 0; s < count; ++s) {
+      Forces df = Forces::Zero(c.x.size());
+      for (const std::string& key : candidate.strengths[size_t(s)].keys)
+        for (size_t i = 0; i < info.size(); ++i)
+          if (info[i].name == key) effect.add_force_derivative(c.x, values, int(i), df);
+      block.col(s) = influences[k] * df;
+    }
+  }
+  return result;
+}
+
+std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& study,
+                         const JointFit& fit, const std::vector<Matrix>& influences,
+                         const Projection& projection, double level) {
+  std::vector<Score> result;
+  for (size_t c = 0; c < candidates.size(); ++c) {
+    const auto& strengths = candidates[c].strengths;
+    const auto count = Eigen::Index(strengths.size());
+    Score s;
+    s.candidate = c;
+    Matrix g = projection(signature(candidates[c], study, fit, influences));
+    Vector typical(count);
+    for (Eigen::Index i = 0; i < count; ++i) typical[i] = strengths[size_t(i)].info.typical;
+    g = (g * typical.asDiagonal()).eval();  // by one typical strength
+    s.estimate = Vector::Zero(count), s.sd = Vector::Zero(count);
+    // Directions that the data do not see are left to what is believed.
+    const Matrix information = g.transpose() * g;
+    s.visible = information.trace() > invisible * invisible;
+    if (s.visible) {
+      const Matrix posterior = information + Matrix::Identity(count, count);
+      const Vector slope = g.transpose() * projection.residuals();
+      Vector step = -posterior.llt().solve(slope);
+      for (Eigen::Index i = 0; i < count; ++i)
+        if (one_sided(strengths[size_t(i)])) step[i] = std::max(0.0, step[i]);
+      s.log_evidence = -slope.dot(step) - 0.5 * step.dot(posterior * step) -
+                       0.5 * std::log(posterior.determinant());
+      const Eigen::JacobiSVD<Matrix> svd(information, Eigen::ComputeThinU);
+      double chi2 = 0;
+      int dof = 0;
+      for (Eigen::Index i = 0; i < count; ++i)
+        if (const double v = svd.singularValues()[i]; v > invisible * invisible)
+          chi2 += std::pow(svd.matrixU().col(i).dot(slope), 2) / v, ++dof;
+      if (count == 1 && one_sided(strengths[0])) {
+        const double z = -slope[0] / std::sqrt(information(0, 0));
+        s.statistic = std::pow(std::max(0.0, z), 2);
+        s.p = normal_tail(z);
+      } else {
+        s.statistic = chi2;
+        s.p = dof == 1 ? 2 * normal_tail(std::sqrt(chi2)) : chi_square_tail(chi2, dof);
+      }
+      s.estimate = step.cwiseProduct(typical);
+      for (Eigen::Index i = 0; i < count; ++i) s.estimate[i] += strengths[size_t(i)].info.absent;
+      s.sd = posterior.inverse().diagonal().cwiseSqrt().cwiseProduct(typical);
+      s.direction = g * (step.isZero(0) ? Vector(Vector::Ones(count)) : step);
+      s.direction.normalize();
+      const double total = projection.residuals().squaredNorm();
+      s.gap_closed = std::max(0.0, -2 * slope.dot(step) - step.dot(information * step)) / total;
+      const double sides = count == 1 && one_sided(strengths[0]) ? 1 : 2;
+      const double z = normal_quantile(level / sides / double(candidates.size())) + nine_in_ten;
+      s.detectable = z / std::sqrt(information.trace() / double(count));
+    }
+    result.push_back(std::move(s));
+  }
+  std::stable_sort(result.begin(), result.end(), [](const Score& a, const Score& b) {
+    return a.log_evidence > b.log_evidence;
+  });
+  return result;
+}
+
+}  // namespace genio

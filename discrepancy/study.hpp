@@ -1,0 +1,54 @@
+#pragma once
+// The conditions under one model: what is fitted together.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "discrepancy/observations.hpp"
+#include "inverse/infer_workspace.hpp"
+
+namespace genio {
+
+/// Models of a description under what is known of each condition; equal ones are shared.
+class Study {
+ public:
+  /// `members`: indices of conditions. The observations must outlive the study.
+  Study(ModelDescription description, const Observations& observations,
+        std::vector<size_t> members);
+
+  size_t size() const { return members_.size(); }
+  const std::vector<size_t>& members() const { return members_; }
+  const ModelDescription& description() const { return description_; }
+  /// The description under what is known of condition k.
+  ModelDescription known(size_t k) const;
+  const Observations& observations() const { return observations_; }
+  const Condition& condition(size_t k) const { return observations_.conditions[members_[k]]; }
+  const Model& model(size_t k) const { return *tongues_[tongue_[k]]->model; }
+  Workspace& workspace(size_t k) { return inferring(k).whole().workspace; }
+  InferWorkspace& inferring(size_t k) { return tongues_[tongue_[k]]->workspace; }
+  /// Index of the model of condition k among the distinct ones.
+  size_t tongue(size_t k) const { return tongue_[k]; }
+  /// What is believed of its commands.
+  Prior prior(size_t k) const;
+  /// True where its commands drive both sides alike.
+  bool bilateral(size_t k) const;
+
+ private:
+  struct Tongue {
+    explicit Tongue(std::unique_ptr<const Model> m) : model(std::move(m)), workspace(*model) {}
+    std::unique_ptr<const Model> model;
+    InferWorkspace workspace;
+  };
+
+  ModelDescription description_;
+  const Observations& observations_;
+  std::vector<size_t> members_, tongue_;
+  std::vector<std::unique_ptr<Tongue>> tongues_;
+};
+
+/// Indices of the conditions to fit, or of those held out.
+std::vector<size_t> fitted_conditions(const Observations& observations);
+std::vector<size_t> heldout_conditions(const Observations& observations);
+
+}  // namespace genio
