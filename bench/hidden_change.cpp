@@ -68,11 +68,12 @@ HiddenChange stiff_region(const ModelDescription& d, std::mt19937& random) {
   Vec3 at = top + Vec3(0, 0, -0.008 - 0.004 * (1 + uniform(random)));
   const double side = uniform(random);
   at[1] = std::abs(side) < 0.4 ? 0 : 0.012 * (side > 0 ? 1 : -1);
-  const double radius = 0.014 + 0.002 * uniform(random);
+  const double radius = 0.016 + 0.003 * uniform(random);
+  const bool softer = random() % 2;
   auto c = by_table(
       "stiff_region",
       [=](double s) {
-        return Table{{"factor", 1 + s}, {"x", at[0]}, {"y", at[1]}, {"z", at[2]},
+        return Table{{"factor", softer ? std::max(0.05, 1 / (1 + s)) : 1 + s}, {"x", at[0]}, {"y", at[1]}, {"z", at[2]},
                      {"radius", radius}};
       },
       4, 60);
@@ -80,12 +81,24 @@ HiddenChange stiff_region(const ModelDescription& d, std::mt19937& random) {
   return c;
 }
 
-HiddenChange weak_muscle(const std::vector<std::string>& active, std::mt19937& random) {
-  std::uniform_int_distribution<size_t> pick(0, std::min<size_t>(2, active.size() - 1));
-  std::string muscle = active[pick(random)];
-  if (muscle != "SL") muscle += random() % 2 ? "_L" : "_R";
-  auto c = by_number("weak_muscle", muscle, 0, 1, 0.3, 1);
-  c.where = muscle, c.symmetric = muscle == "SL";
+HiddenChange weak_muscle(const std::vector<std::string>& active, bool forces_known,
+                         std::mt19937& random) {
+  std::uniform_int_distribution<size_t> pick(0, std::min<size_t>(3, active.size() - 1));
+  const std::string muscle = active[pick(random)];
+  if (muscle == "SL") return weak_muscle(active, forces_known, random);
+  const unsigned sides = forces_known ? unsigned(random() % 3) : unsigned(random() % 2);
+  const auto keys = sides == 0   ? std::vector{muscle + "_L"}
+                    : sides == 1 ? std::vector{muscle + "_R"}
+                                 : std::vector{muscle + "_L", muscle + "_R"};
+  auto c = by_table(
+      "weak_muscle",
+      [=](double s) {
+        Table t;
+        for (const auto& key : keys) t[key] = s;
+        return t;
+      },
+      0.3, 1);
+  c.where = sides == 2 ? muscle : keys.front(), c.symmetric = sides == 2;
   return c;
 }
 
@@ -182,7 +195,8 @@ const std::vector<std::string>& hidden_names() {
 }
 
 HiddenChange hidden_change(const std::string& name, const ModelDescription& tongue,
-                           const std::vector<std::string>& active, std::mt19937& random) {
+                           const std::vector<std::string>& active, bool forces_known,
+                           std::mt19937& random) {
   if (name == "palate_contact") return contact(name, {0, 0, -1});
   if (name == "jaw_contact") return contact(name, {1, 0, 0});
   if (name == "gravity")
@@ -194,7 +208,7 @@ HiddenChange hidden_change(const std::string& name, const ModelDescription& tong
   if (name == "compressibility") return by_number(name, "compliance", 0, 1e-5, 3, 100);
   if (name == "mucosa_layer") return by_number(name, "a10", 0, 1e3, 8, 500);
   if (name == "stiff_region") return stiff_region(tongue, random);
-  if (name == "weak_muscle") return weak_muscle(active, random);
+  if (name == "weak_muscle") return weak_muscle(active, forces_known, random);
   if (name == "extra_muscle") return extra_muscle(tongue, random);
   if (name == "force_length") return by_number(name, "strength", 0, 1, 0.5, 1);
   if (name == "jaw_opening") return by_number(name, "angle", 0, 1, 2, 20);

@@ -30,8 +30,10 @@ struct HiddenChange {
 /// The changes that can be hidden; "lump" and "tether" are in no library.
 const std::vector<std::string>& hidden_names();
 
-/// One at a random place. `active`: the muscles of the data set's postures, most used first.
+/// One at a random place. `active`: the muscles of the data set's postures, most used first. Where
+/// forces are not known and both sides are commanded alike, a weak muscle is one of one side.
 HiddenChange hidden_change(const std::string& name, const ModelDescription& tongue,
-                           const std::vector<std::string>& active, std::mt19937& random);
+                           const std::vector<std::string>& active, bool forces_known,
+                           std::mt19937& random);
 
 }  // namespace genio::bench

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 constexpr double fibre_turn = 5;     // [degrees]
 constexpr double largest = 0.15;     // of a muscle's maximum
 constexpr double force_error = 0.1;  // of known forces
+constexpr int most_tries = 5;
 constexpr double effort_sd = 0.12;
 constexpr int line_points = 32, across_points = 20, scattered_points = 90;
 
@@ -214,9 +215,14 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
   };
   Changes changes;
   for (const std::string& name : what.effects) {
-    const HiddenChange c = hidden_change(name, tongue, most_used(fitted, tongue), random);
+    HiddenChange c;
     double s = 0;
-    if (!find_amplitude(tongue, c, fitted, what, what.strength, s))
+    bool found = false;
+    for (int tries = 0; tries < most_tries && !found; ++tries) {  // at one place or another
+      c = hidden_change(name, tongue, most_used(fitted, tongue), what.forces_known, random);
+      found = find_amplitude(tongue, c, fitted, what, what.strength, s);
+    }
+    if (!found)
       return failed(fmt::format("{}: strength {} is out of reach", name, what.strength));
     changes.all.push_back(c), changes.s.push_back(s);
   }

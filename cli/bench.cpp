@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "bench/benchmarks.hpp"
+#include "cli/bench_discover.hpp"
 #include "cli/commands.hpp"
 #include "forward/model_file.hpp"
 #include "report/verification_report.hpp"
@@ -10,7 +11,8 @@ namespace {
 
 struct BenchOptions {
   std::string what, model = default_model(), data, target, palate, out;
-  int sample = 0;
+  int sample = 0, threads = 1;
+  unsigned seed = 1;
   bool json = false, all = false;
 };
 
@@ -26,6 +28,9 @@ int run(const BenchOptions& o) {
     j = bench::peer(needed(o.data, "--data", o.what), tell);
   } else if (o.what == "grenoble") {
     j = bench::grenoble(needed(o.data, "--data", o.what), tell);
+  } else if (o.what == "discover") {
+    j = bench_discover(o.model, o.out.empty() ? "bench-discover" : o.out, o.sample, o.seed,
+                       o.threads);
   } else if (o.what == "forward") {
     j = bench::forward(tell);
   } else if (o.what == "verification") {
@@ -56,20 +61,23 @@ Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
   app.add_option(
          "what", o->what,
-         "forward, dynamic, robustness, verification, inverse, reach, peer, gesture, service, "
+         "forward, dynamic, robustness, verification, inverse, reach, peer, gesture, discover, service, "
          "ultrasound, grenoble")
       ->required()
       ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse", "reach",
-                             "peer", "gesture", "service", "ultrasound", "grenoble"}));
+                             "peer", "gesture", "discover", "service", "ultrasound", "grenoble"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
   app.add_option("--data", o->data,
                  "grenoble, peer, dynamic, verification: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
-  app.add_option("--sample", o->sample, "Random cases: robustness (500), reach (200), inverse (20)")
+  app.add_option("--sample", o->sample, "Random cases: robustness (500), reach (200), inverse (20), discover (all)")
       ->check(CLI::Range(1, 100000));
+  app.add_option("--threads", o->threads, "discover: data sets at a time")
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--seed", o->seed, "discover: which random cases a sample takes");
   app.add_flag("--all", o->all, "ultrasound: every frame, not one a word");
-  app.add_option("--out", o->out, "verification: folder for its tables and plots");
+  app.add_option("--out", o->out, "verification: folder for its tables and plots; discover: for data and results");
   app.add_flag("--json", o->json, "One JSON object on standard output");
   app.footer("Example: genio bench inverse");
   return [o] { return run(*o); };

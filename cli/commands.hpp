@@ -16,6 +16,7 @@ Runner add_info(CLI::App& app);
 Runner add_import(CLI::App& app);
 Runner add_forward(CLI::App& app);
 Runner add_invert(CLI::App& app);
+Runner add_discover(CLI::App& app);
 Runner add_serve(CLI::App& app);
 Runner add_request(CLI::App& app);
 Runner add_bench(CLI::App& app);

@@ -20,8 +20,8 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(int done, int total)
-    : first_(done), done_(done), total_(total), terminal_(isatty(STDERR_FILENO)), started_(now()) {}
+ProgressLine::ProgressLine(int done, int total, std::string items)
+    : items_(std::move(items)), first_(done), done_(done), total_(total), terminal_(isatty(STDERR_FILENO)), started_(now()) {}
 
 void ProgressLine::step() {
   ++done_;
@@ -30,8 +30,8 @@ void ProgressLine::step() {
   constexpr int width = 24;
   const int full = width * done_ / total_;
   const double each = (now() - started_) / (done_ - first_);
-  fmt::print(stderr, "{}[{:#<{}}{:.<{}}] {} of {} frames, {:.2f} s each, {} left{}",
-             terminal_ ? "\r" : "", "", full, "", width - full, done_, total_, each,
+  fmt::print(stderr, "{}[{:#<{}}{:.<{}}] {} of {} {}, {:.2f} s each, {} left{}",
+             terminal_ ? "\r" : "", "", full, "", width - full, done_, total_, items_, each,
              duration(each * (total_ - done_)), terminal_ && done_ < total_ ? "  " : "\n");
   std::fflush(stderr);
 }

@@ -7,10 +7,11 @@ namespace genio::cli {
 /// every tenth part elsewhere. Nothing for a single item.
 class ProgressLine {
  public:
-  ProgressLine(int done, int total);
+  ProgressLine(int done, int total, std::string items = "frames");
   void step();
 
  private:
+  std::string items_;
   int first_, done_, total_;
   bool terminal_;
   double started_;

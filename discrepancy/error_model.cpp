@@ -55,12 +55,18 @@ Matrix noise_covariance(const Target& target, const Residuals& r, double length)
   const auto n = Eigen::Index(r.rows.size());
   Matrix c = Matrix::Identity(n, n);
   if (length <= 0) return c;
+  std::vector<Vec3> across;  // direction of each residual
+  for (const auto& gradient : r.gradient) {
+    Vec3 sum = Vec3::Zero();
+    for (const auto& [node, g] : gradient) sum += g;
+    across.push_back(sum.normalized());
+  }
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < i; ++j) {
       const int a = r.rows[size_t(i)].point, b = r.rows[size_t(j)].point;
       if (contour[size_t(a)] < 0 || contour[size_t(a)] != contour[size_t(b)]) continue;
       const double apart = (r.places[size_t(a)] - r.places[size_t(b)]).norm();
-      c(i, j) = c(j, i) = std::exp(-apart / length);
+      c(i, j) = c(j, i) = std::exp(-apart / length) * across[size_t(i)].dot(across[size_t(j)]);
     }
   return c;
 }
@@ -136,6 +142,8 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
     block += model_error_covariance(
         c.residuals, std::max(doubt.least_mesh_error, doubt.correction_sd * std::sqrt(size)),
         doubt.mesh_length);
+    for (Eigen::Index i = 0; i < count; ++i)
+      block(i, i) += std::pow(doubt.local_error * c.residuals.rows[size_t(i)].scale, 2);
   }
   for (int axis = 0; axis < 3; ++axis) {
     const Matrix part = turned(Eigen::all, Eigen::seqN(axis, turned.cols() / 3, 3));

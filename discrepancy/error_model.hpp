@@ -12,12 +12,16 @@ struct ModelDoubt {
   double tissue_sd = 0.03;      ///< of the logarithm of the tissue's stiffness
   double correction_sd = 0.25;  ///< of the mesh's own error, as a part of its correction
   double least_mesh_error = 3e-5;  ///< [m]
+  double local_error = 1e-4;  ///< of the mesh within an element, from point to point [m]
   double mesh_length = 0.012;      ///< of the rest of the mesh's error [m]
+  /// How much larger than foreseen a chi-square of a model that lacks nothing tends to be, by what
+  /// is not of first order. Set by `genio bench discover`.
+  double dispersion = 1.1;
 };
 
 /// Covariance of the noise of one condition's residuals, in units of its standard deviation:
-/// exp(-distance / length) within a contour (an Ornstein-Uhlenbeck process along it), and between
-/// contours none.
+/// n.n' exp(-distance / length) within a contour for residuals across n and n' (each coordinate an
+/// Ornstein-Uhlenbeck process along it), and between contours none.
 Matrix noise_covariance(const Target& target, const Residuals& residuals, double length);
 
 /// Forces that turned fibres make: rows of `influence` times d nodal force / d displacement u of

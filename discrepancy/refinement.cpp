@@ -65,15 +65,17 @@ Refinement::Tongues::Tongues(const ModelDescription& d)
     : coarse(build_model(d, d.name)),
       mirror(mirror_of(coarse)),
       fine(build_model(refined(mirror ? *mirror->half.description : d), d.name + ", refined")),
-      seen(build_model(geometry(refined(d)), d.name + ", refined")),
+      whole(build_model(geometry(refined(d)), d.name + ", refined")),
       coarse_workspace(coarse),
       fine_workspace(fine) {
-  if (mirror) node = nodes_of(fine.mesh, seen.mesh);
+  if (mirror) node = nodes_of(fine.mesh, whole.mesh);
 }
 
-Vector Refinement::correction(const Model& fitted, const FittedCondition& c, size_t k) {
-  auto& made = tongues_[study_.tongue(k)];
-  if (!made) made = std::make_unique<Tongues>(study_.known(k));
+Vector Refinement::correction(const Model& fitted, const FittedCondition& c,
+                              size_t condition) {
+  const Condition& seen = observations_.conditions[condition];
+  auto& made = tongues_[seen.effects];
+  if (!made) made = std::make_unique<Tongues>(under(description_, seen.effects));
   Tongues& t = *made;
   SolveOptions options;
   options.tolerance = tolerance;
@@ -83,30 +85,35 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c, siz
   if (!rough) return none;
   const Model& near = t.mirror ? t.mirror->half : t.coarse;
   const Positions start = t.mirror ? Positions(t.mirror->right_half(rough.x)) : rough.x;
-  HexMesh moved = near.mesh;
-  for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(start, int(a));
+  Positions& fine_start = latest_[condition];
+  if (fine_start.size() == 0) {
+    HexMesh moved = near.mesh;
+    for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(start, int(a));
+    fine_start = rest_positions(refined(moved, near.description->supports).mesh);
+  }
   const Equilibrium smooth = solve_equilibrium(
       t.fine, t.mirror ? halved(t.fine, t.coarse, p) : evened(t.fine, t.coarse, p, false),
-      rest_positions(refined(moved, near.description->supports).mesh), t.fine_workspace, options);
+      fine_start, t.fine_workspace, options);
   if (!smooth) return none;
+  fine_start = smooth.x;
   Positions x = smooth.x;
   if (t.mirror) {
-    x.resize(t.seen.rest.size());
+    x.resize(t.whole.rest.size());
     for (size_t a = 0; a < t.node.size(); ++a) {
       x.segment<3>(3 * Eigen::Index(a)) = node_position(smooth.x, t.node[a]);
-      if (t.seen.mesh.nodes[a][1] < 0) x[3 * Eigen::Index(a) + 1] *= -1;
+      if (t.whole.mesh.nodes[a][1] < 0) x[3 * Eigen::Index(a) + 1] *= -1;
     }
   }
   const HeadPose pose = head_pose(c.commands, c.z);
-  const Target& target = study_.condition(k).target;
-  return Comparison(t.seen, target)(x, pose).values -
+  const Target& target = seen.target;
+  return Comparison(t.whole, target)(x, pose).values -
          Comparison(t.coarse, target)(rough.x, pose).values;
 }
 
-Corrections Refinement::corrections(const Study& fitted, const JointFit& fit) {
+Corrections Refinement::corrections(const Study& study, const JointFit& fit) {
   Corrections result;
   for (size_t k = 0; k < fit.conditions.size(); ++k)
-    result.push_back(correction(fitted.model(k), fit.conditions[k], k));
+    result.push_back(correction(study.model(k), fit.conditions[k], study.members()[k]));
   return result;
 }
 

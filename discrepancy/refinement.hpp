@@ -5,16 +5,17 @@
 
 namespace genio {
 
-/// Refined tongues of a study, each made when first needed.
+/// Refined tongues of a description, one for all that is known of a condition, each made when first
+/// needed.
 class Refinement {
  public:
-  explicit Refinement(const Study& study) : study_(study) {}
+  Refinement(ModelDescription description, const Observations& observations)
+      : description_(std::move(description)), observations_(observations) {}
   /// For every condition of a fit: the residuals of the same problem on a mesh with every element
   /// split in eight, less those of this mesh, in units of the noise; on half a tongue, with the mean
-  /// forces of both sides, where the tongue is symmetric. The fit may be of another study of the
-  /// same conditions; parameters that this study's model has not are left out. Zero where the finer
-  /// problem has no solution.
-  Corrections corrections(const Study& fitted, const JointFit& fit);
+  /// forces of both sides, where the tongue is symmetric. Parameters of the study's models that this
+  /// description has not are left out. Zero where the finer problem has no solution.
+  Corrections corrections(const Study& study, const JointFit& fit);
 
  private:
   struct Tongues {
@@ -22,14 +23,16 @@ class Refinement {
     Model coarse;
     std::unique_ptr<const Mirror> mirror;  ///< of the coarse tongue; null: not symmetric
     Model fine;       ///< half a tongue where there is a mirror
-    Model seen;       ///< the whole fine tongue's geometry alone
-    std::vector<int> node;  ///< of `fine`, for each of `seen`
+    Model whole;      ///< the whole fine tongue's geometry alone
+    std::vector<int> node;  ///< of `fine`, for each of `whole`
     Workspace coarse_workspace, fine_workspace;
   };
-  Vector correction(const Model& fitted, const FittedCondition& condition, size_t k);
+  Vector correction(const Model& fitted, const FittedCondition& fit, size_t condition);
 
-  const Study& study_;
-  std::map<size_t, std::unique_ptr<Tongues>> tongues_;
+  ModelDescription description_;
+  const Observations& observations_;
+  std::map<std::map<std::string, double>, std::unique_ptr<Tongues>> tongues_;  ///< by known effects
+  std::map<size_t, Positions> latest_;  ///< fine shape of each condition, to start from
 };
 
 }  // namespace genio

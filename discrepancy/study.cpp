@@ -14,12 +14,12 @@ std::vector<size_t> where(const Observations& o, bool heldout) {
   return result;
 }
 
+}  // namespace
+
 ModelDescription under(ModelDescription d, const std::map<std::string, double>& effects) {
   for (const auto& [name, value] : effects) d = with_parameter(std::move(d), name, value);
   return d;
 }
-
-}  // namespace
 
 std::vector<size_t> fitted_conditions(const Observations& o) { return where(o, false); }
 std::vector<size_t> heldout_conditions(const Observations& o) { return where(o, true); }
@@ -41,8 +41,6 @@ Study::Study(ModelDescription description, const Observations& observations,
         std::make_unique<Tongue>(std::make_unique<const Model>(build_model(d, d.name))));
   }
 }
-
-ModelDescription Study::known(size_t k) const { return under(description_, condition(k).effects); }
 
 bool Study::bilateral(size_t k) const {
   return observations_.bilateral && !condition(k).forces.has_value();

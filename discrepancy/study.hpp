@@ -20,8 +20,6 @@ class Study {
   size_t size() const { return members_.size(); }
   const std::vector<size_t>& members() const { return members_; }
   const ModelDescription& description() const { return description_; }
-  /// The description under what is known of condition k.
-  ModelDescription known(size_t k) const;
   const Observations& observations() const { return observations_; }
   const Condition& condition(size_t k) const { return observations_.conditions[members_[k]]; }
   const Model& model(size_t k) const { return *tongues_[tongue_[k]]->model; }
@@ -46,6 +44,9 @@ class Study {
   std::vector<size_t> members_, tongue_;
   std::vector<std::unique_ptr<Tongue>> tongues_;
 };
+
+/// A description under known effects.
+ModelDescription under(ModelDescription description, const std::map<std::string, double>& effects);
 
 /// Indices of the conditions to fit, or of those held out.
 std::vector<size_t> fitted_conditions(const Observations& observations);

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "cli/commands.hpp"
+#include "report/discovery_report.hpp"
+#include "report/svg.hpp"
+
+namespace genio::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string model = default_model(), observations, out;
+  unsigned seed = 1;
+  int refits = 5, effects = 3;
+  bool json = false;
+};
+
+void print_table(const Discovery& d) {
+  fmt::print("{}: {}\n", to_string(d.finding), d.message);
+  for (const NamedEffect& e : d.effects) {
+    fmt::print("  {}{}  probability {:.3f}\n", e.effect, e.where.empty() ? "" : " (" + e.where + ")",
+               e.confidence);
+    for (const SharedEstimate& p : e.parameters)
+      fmt::print("    {} = {:.4g} {}  (90 %: {:.4g} to {:.4g})\n", p.name, p.value, p.unit, p.low,
+                 p.high);
+  }
+  for (const Rival& r : d.alternatives)
+    fmt::print("  or {}{}  probability {:.3f}, signature alike {:.2f}\n", r.effect,
+               r.where.empty() ? "" : " (" + r.where + ")", r.probability, r.similarity);
+  fmt::print("gap {:.2f} -> {:.2f} mm; held out {:.2f} -> {:.2f} mm; noise {:.2f} mm\n",
+             1e3 * d.before.rms, 1e3 * d.after.rms, 1e3 * d.heldout_before.rms,
+             1e3 * d.heldout_after.rms, 1e3 * d.noise);
+}
+
+int run(const Options& o) {
+  const ModelDescription description = read_description(o.model);
+  const Observations observations =
+      read_observations(o.observations, build_model(description, o.model));
+  DiscoverOptions options;
+  options.refits = o.refits, options.most_effects = o.effects;
+  options.progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const Discovery d = discover(description, observations, options);
+  std::string model;
+  if (!o.out.empty()) {
+    fs::create_directories(o.out);
+    if (!d.effects.empty()) {
+      model = o.out + "/model";
+      write_description(d.model, model);
+    }
+    write_text(o.out + "/discovery.json", to_json(d, model).dump(2) + "\n");
+  }
+  if (o.json) fmt::print("{}\n", to_json(d, model).dump());
+  else print_table(d);
+  return done;
+}
+
+}  // namespace
+
+Runner add_discover(CLI::App& app) {
+  auto o = std::make_shared<Options>();
+  app.add_option("--model", o->model, "Model folder or model.toml");
+  app.add_option("--observations", o->observations, "TOML file of conditions")->required();
+  app.add_option("--out", o->out, "Folder for the patched model and the report");
+  app.add_option("--seed", o->seed, "Of what is drawn at random");
+  app.add_option("--refits", o->refits, "Candidates refitted a round (5)")
+      ->check(CLI::Range(1, 100));
+  app.add_option("--effects", o->effects, "Effects looked for, one after another (3)")
+      ->check(CLI::Range(1, 10));
+  app.add_flag("--json", o->json, "One JSON object on standard output");
+  app.footer("Example: genio discover --observations observations.toml --out found");
+  return [o] { return run(*o); };
+}
+
+}  // namespace genio::cli

@@ -1,0 +1,108 @@
+#include "discrepancy/selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace genio {
+namespace {
+
+/// Starting values of a candidate's numbers, in their own unit.
+std::map<std::string, double> starts(const Candidate& c, const Score& s) {
+  std::map<std::string, double> result;
+  for (size_t i = 0; i < c.strengths.size(); ++i) {
+    const FreeNumber& n = c.strengths[i];
+    const double least = 0.05 * n.info.typical;  // off the kink of a one-sided one
+    double v = s.estimate[Eigen::Index(i)];
+    if (std::abs(v - n.info.absent) < least) v = n.info.absent + least;
+    result[(c.hypothesis ? c.effect : "head_pose") + "." + n.name] =
+        std::clamp(v, n.info.lower, n.info.upper);
+  }
+  return result;
+}
+
+double chi_square(const JointFit& fit, const Eigen::LLT<Matrix>& covariance) {
+  return covariance.matrixL().solve(fit.residuals()).squaredNorm();
+}
+
+}  // namespace
+
+std::vector<double> log_prior(const std::vector<Candidate>& candidates) {
+  std::map<std::string, int> places;
+  for (const Candidate& c : candidates) ++places[c.effect];
+  std::vector<double> result;
+  for (const Candidate& c : candidates)
+    result.push_back(-std::log(2.0 * double(places.size()) * places[c.effect]));
+  return result;
+}
+
+Account refit(const Account& base, const Candidate& candidate, const Score& score,
+              const Evidence& evidence) {
+  Account a;
+  a.added = candidate;
+  a.shared = base.shared;
+  a.description = base.description;
+  std::map<std::string, double> start;
+  if (candidate.hypothesis) {
+    const Hypothesis& h = *candidate.hypothesis;
+    const bool is_switch = h.is_switch();
+    a.description = h.added_to(std::move(a.description), is_switch);
+    if (!is_switch) {
+      for (const FreeNumber& n : h.strengths)
+        a.shared.parameters[h.effect + "." + n.name] = {n.info.absent, n.info.typical};
+      for (const FreeNumber& n : h.details)
+        a.shared.parameters[h.effect + "." + n.name] = {n.info.absent, n.info.typical};
+      start = starts(candidate, score);
+    }
+  } else {
+    a.shared.head_pose = Prior::HeadPose{1e-3, 0.02};
+    start = starts(candidate, score);
+  }
+  try {
+    a.study = std::make_shared<Study>(a.description, evidence.observations,
+                                      fitted_conditions(evidence.observations));
+    a.fit = fit(*a.study, a.shared, &evidence.covariance, evidence.corrections, &base.fit, start);
+    a.message = a.fit.message;
+  } catch (const InputError& e) {
+    a.message = e.what();
+  }
+  if (a.fitted()) {
+    const Projection projection(a.fit, evidence.covariance);
+    a.chi_square = chi_square(a.fit, evidence.covariance), a.dof = projection.dof();
+  }
+  return a;
+}
+
+ModelDescription with_fitted(ModelDescription d, const JointFit& fit) {
+  for (const SharedEstimate& e : fit.shared) {
+    const auto dot = e.name.find('.');
+    const std::string effect = e.name.substr(0, dot), key = e.name.substr(dot + 1);
+    if (!d.effects.contains(effect)) continue;  // the head pose
+    auto& table = d.effects[effect];
+    if (table.contains(key)) table[key] = e.value;
+    else
+      for (const char* side : {"_L", "_R"}) table[key + side] = e.value;
+  }
+  return d;
+}
+
+HeldoutFit fit_heldout(const Account& account, const Evidence& evidence) {
+  HeldoutFit h;
+  const auto members = heldout_conditions(evidence.observations);
+  if (members.empty()) return h;
+  h.study = std::make_shared<Study>(with_fitted(account.description, account.fit),
+                                    evidence.observations, members);
+  // A head pose that all data were laid with is no parameter of the model: it stays as fitted.
+  SharedPrior shared;
+  std::map<std::string, double> start;
+  if (account.shared.head_pose) {
+    shared.head_pose = account.shared.head_pose;
+    for (const SharedEstimate& e : account.fit.shared)
+      if (e.name.starts_with("head_pose")) start[e.name] = e.value;
+  }
+  h.fit = fit(*h.study, shared, evidence.heldout_covariance, evidence.heldout_corrections,
+              evidence.heldout_start, start);
+  return h;
+}
+
+}  // namespace genio

@@ -1,0 +1,70 @@
+#include "report/discovery_report.hpp"
+
+namespace genio {
+namespace {
+
+using Json = nlohmann::json;
+
+Json effect_json(const NamedEffect& e) {
+  Json parameters = Json::object(), sd = Json::object(), interval = Json::object();
+  for (const SharedEstimate& p : e.parameters) {
+    const std::string key = p.name.substr(p.name.find('.') + 1);
+    parameters[key] = p.value, sd[key] = p.sd, interval[key] = {p.low, p.high};
+  }
+  return {{"name", e.effect},   {"where", e.where},          {"parameters", parameters},
+          {"sd", sd},           {"interval90", interval},    {"confidence", e.confidence}};
+}
+
+Json round_json(const Round& round) {
+  Json candidates = Json::array();
+  for (const Ranked& r : round.candidates) {
+    Json estimate = Json::object();
+    for (size_t i = 0; i < r.candidate.strengths.size(); ++i)
+      estimate[r.candidate.strengths[i].name] = r.score.estimate[Eigen::Index(i)];
+    candidates.push_back({{"name", r.candidate.effect},
+                          {"where", r.candidate.where},
+                          {"visible", r.score.visible},
+                          {"statistic", r.score.statistic},
+                          {"p", r.score.p},
+                          {"log_evidence", r.score.log_evidence},
+                          {"estimate", estimate},
+                          {"detectable_of_typical", r.score.detectable},
+                          {"refitted", r.refitted},
+                          {"log_odds", r.log_odds},
+                          {"probability", r.probability},
+                          {"message", r.message}});
+  }
+  return {{"candidates", candidates},
+          {"probability_of_nothing", round.nothing},
+          {"chi2", round.chi_square},
+          {"dof", round.dof},
+          {"scoring_s", round.seconds_scoring}};
+}
+
+}  // namespace
+
+Json to_json(const Discovery& d, const std::string& model) {
+  Json effects = Json::array(), alternatives = Json::array(), rounds = Json::array();
+  for (const NamedEffect& e : d.effects) effects.push_back(effect_json(e));
+  for (const Rival& r : d.alternatives)
+    alternatives.push_back({{"name", r.effect},
+                            {"where", r.where},
+                            {"probability", r.probability},
+                            {"similarity", r.similarity}});
+  for (const Round& r : d.rounds) rounds.push_back(round_json(r));
+  return {{"verdict", to_string(d.finding)},
+          {"message", d.message},
+          {"effects", effects},
+          {"alternatives", alternatives},
+          {"gap_before_mm", 1e3 * d.before.rms},
+          {"gap_after_mm", 1e3 * d.after.rms},
+          {"heldout_gap_before_mm", 1e3 * d.heldout_before.rms},
+          {"heldout_gap_after_mm", 1e3 * d.heldout_after.rms},
+          {"noise_mm", 1e3 * d.noise},
+          {"fit_p", d.fit_tail},
+          {"model", model.empty() ? Json() : Json(model)},
+          {"rounds", rounds},
+          {"wall_s", d.seconds}};
+}
+
+}  // namespace genio
