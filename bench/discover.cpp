@@ -80,17 +80,19 @@ Json run_discover_case(const ModelDescription& tongue, const HiddenCase& c,
   fs::create_directories(folder + "/answers");
   Json hidden;
   if (std::ifstream in(answer); in) in >> hidden;
-  if (hidden.is_null() || (!hidden.contains("failed") && !fs::exists(data + "/observations.toml")))
-    hidden = make_hidden_data(tongue, c, data, answer);
-  Json result = {{"case", c.name}, {"answer", hidden}};
-  if (hidden.contains("failed")) return result;
+  Json result = {{"case", c.name}};
   try {
+    if (hidden.is_null() || (!hidden.contains("failed") && !fs::exists(data + "/observations.toml")))
+      hidden = make_hidden_data(tongue, c, data, answer);
+    result["answer"] = hidden;
+    if (hidden.contains("failed")) return result;
     const ModelDescription d = read_description(data + "/model");
     const Observations o =
         read_observations(data + "/observations.toml", build_model(d, data + "/model"));
     result["found"] = found_json(discover(d, o));
   } catch (const std::exception& e) {
     result["error"] = e.what();
+    result["answer"] = {{"failed", e.what()}};
   }
   return result;
 }

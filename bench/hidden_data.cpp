@@ -69,6 +69,19 @@ Parameters commanded(const Model& m, const Forces_N& forces, bool half = false) 
   return p;
 }
 
+/// With fibres turned; another draw where one would turn an element inside out.
+ModelDescription turned(const ModelDescription& tongue, unsigned seed) {
+  for (unsigned tries = 0; tries < 20; ++tries) {
+    const ModelDescription d = with_turned_fibres(tongue, fibre_turn, seed + 100000 * tries);
+    try {
+      check_mesh(refined(d).mesh, "truth");
+      return d;
+    } catch (const InputError&) {
+    }
+  }
+  throw std::runtime_error("no draw of turned fibres leaves the mesh valid");
+}
+
 struct Changes {
   std::vector<HiddenChange> all;
   std::vector<double> s;
@@ -226,7 +239,7 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
       return failed(fmt::format("{}: strength {} is out of reach", name, what.strength));
     changes.all.push_back(c), changes.s.push_back(s);
   }
-  ModelDescription coarse = changes.truth(with_turned_fibres(tongue, fibre_turn, what.seed));
+  ModelDescription coarse = changes.truth(turned(tongue, what.seed));
   const bool half = changes.symmetric();
   if (half) coarse = half_of(coarse, "truth");
   Model rough = build_model(coarse, "truth"), fine = build_model(refined(coarse), "fine truth");

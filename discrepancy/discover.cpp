@@ -16,6 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double behind = 0.4;
+constexpr double rough = 1, fine = 0.03;  // precision of fits, of the log posterior
+
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -23,6 +26,7 @@ double since(Clock::time_point start) {
 /// Residuals of one set of conditions with all that is believed of their errors.
 struct Errors {
   Corrections corrections;
+  Matrix matrix;  ///< the covariance
   Eigen::LLT<Matrix> covariance;
   std::vector<Matrix> influences;
 };
@@ -39,7 +43,8 @@ Errors errors_at(Study& study, const JointFit& fit, Refinement& refinement,
   Errors e;
   e.corrections = refinement.corrections(study, fit);
   e.influences = influences_of(study, fit);
-  e.covariance.compute(residual_covariance(study, fit, e.influences, e.corrections, doubt));
+  e.matrix = residual_covariance(study, fit, e.influences, e.corrections, doubt);
+  e.covariance.compute(e.matrix);
   return e;
 }
 
@@ -130,15 +135,15 @@ class Search {
     base_.study = std::make_shared<Study>(with_mobile_supports(base_.description), observations_,
                                           fitted);
     tell(fmt::format("{} conditions to fit, {} held out", fitted.size(), heldout.size()));
-    base_.fit = fit(*base_.study, {}, nullptr, {});
+    base_.fit = fit(*base_.study, {}, nullptr, {}, nullptr, {}, rough);
     if (base_.fit.conditions.size() != fitted.size())
       throw InputError("the model does not reach the conditions: " + base_.fit.message);
     refinement_ = std::make_unique<Refinement>(base_.description, observations_);
     // Forces that made up for the mesh go back once it is corrected, and its error with them.
-    for (int times = 0; times < 2; ++times) fit_base();
+    fit_base(rough), fit_base();
     if (!heldout.empty()) {
       heldout_study_ = std::make_shared<Study>(base_.description, observations_, heldout);
-      heldout_fit_ = fit(*heldout_study_, {}, nullptr, {});
+      heldout_fit_ = fit(*heldout_study_, {}, nullptr, {}, nullptr, {}, rough);
       if (heldout_fit_.conditions.size() != heldout.size())
         throw InputError("the model does not reach the conditions held out: " +
                          heldout_fit_.message);
@@ -157,10 +162,11 @@ class Search {
   }
 
   /// Errors at the base's fit, and the fit again under them.
-  void fit_base() {
+  void fit_base(double precision = fine) {
     errors_ = errors_at(*base_.study, base_.fit, *refinement_, options_.doubt);
     base_.fit =
-        fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &base_.fit);
+        fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &base_.fit, {},
+            precision);
     const Projection projection(base_.fit, errors_.covariance);
     base_.chi_square = projection.chi_square(), base_.dof = projection.dof();
   }
@@ -183,6 +189,10 @@ class Search {
     const auto scores = score(all, *base_.study, base_.fit, errors_.influences, projection);
     Round round;
     round.seconds_scoring = since(started);
+    if (d_.rounds.empty()) {
+      d_.map_before = d_.map_after = localise(*base_.study, base_.fit, errors_.matrix);
+      d_.hidden = hidden_force(*base_.study, errors_.influences, projection);
+    }
     round.chi_square = base_.chi_square, round.dof = base_.dof;
     const auto prior = log_prior(all);
     std::vector<Account> accounts(scores.size());
@@ -190,14 +200,18 @@ class Search {
       round.candidates.push_back({all[scores[i].candidate], scores[i], false,
                                   scores[i].log_evidence + prior[scores[i].candidate], 0, ""});
     std::vector<size_t> refitted;
+    double gained = 0;  // by the best refit, of log evidence
     for (size_t i : worth_a_refit(all, scores, prior, options_.refits)) {
       Ranked& r = round.candidates[i];
+      // What a straight line puts this far behind no refit brings to the front.
+      if (scores[i].log_evidence < behind * gained) continue;
       tell(fmt::format("  refitting {}", r.candidate.label()));
       accounts[i] = refit(base_, r.candidate, scores[i], evidence());
       r.message = accounts[i].message;
       if (!accounts[i].fitted()) continue;
       accounts[i].heldout_log_evidence = fit_heldout(accounts[i], evidence()).fit.log_evidence;
       r.refitted = true;
+      gained = std::max(gained, accounts[i].fit.log_evidence - base_.fit.log_evidence);
       refitted.push_back(i);
       r.log_odds = accounts[i].fit.log_evidence - base_.fit.log_evidence +
                    accounts[i].heldout_log_evidence - base_.heldout_log_evidence +
@@ -249,8 +263,10 @@ class Search {
     const JointFit before = account.fit;
     base_.study = std::make_shared<Study>(with_mobile_supports(base_.description), observations_,
                                           fitted_conditions(observations_));
-    base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &before);
-    refinement_ = std::make_unique<Refinement>(with_fitted(base_.description, base_.fit), observations_);
+    base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &before,
+                    {}, rough);
+    refinement_ = std::make_unique<Refinement>(with_fitted(base_.description, base_.fit),
+                                               *refinement_);
     fit_base();
     if (heldout_study_) {
       HeldoutFit h = fit_heldout(base_, evidence());
@@ -267,6 +283,8 @@ class Search {
 
   void decide() {
     d_.last = base_.fit, d_.heldout_last = heldout_fit_;
+    d_.rest = base_.study->model(0).rest;
+    if (!effects_.empty()) d_.map_after = localise(*base_.study, base_.fit, errors_.matrix);
     d_.after = gap_of(base_.fit, d_.noise), d_.heldout_after = gap_of(heldout_fit_, d_.noise);
     d_.model = with_fitted(base_.description, base_.fit);
     d_.fit_tail = chi_square_tail(base_.chi_square / options_.doubt.dispersion, base_.dof);
@@ -289,6 +307,7 @@ class Search {
                                {effects_[i].effect, effects_[i].where, confidence_[i], 1});
       d_.effects.clear();
       d_.model = found_;
+      d_.map_after = d_.map_before;
       d_.last = d_.first, d_.heldout_last = d_.heldout_first;
       d_.after = d_.before, d_.heldout_after = d_.heldout_before;
     }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "discrepancy/error_model.hpp"
+#include "discrepancy/localise.hpp"
 #include "discrepancy/selection.hpp"
 
 namespace genio {
@@ -60,6 +61,9 @@ struct Discovery {
   std::vector<Round> rounds;
   JointFit first, last;     ///< fits of the fitted conditions before and after
   JointFit heldout_first, heldout_last;
+  ResidualMap map_before, map_after;  ///< of the fitted conditions
+  HiddenForce hidden;                 ///< that would close the gap of the model as it was
+  Positions rest;                     ///< of the model's nodes
   double seconds = 0;
 };
 

@@ -12,6 +12,8 @@ namespace genio {
 namespace {
 
 constexpr double interval = 1.645;  // standard deviations of a 90 % interval
+constexpr int most_steps = 25;
+constexpr int starts_alone = 2;  // of a condition inverted by itself
 constexpr double on_bound = 1e-3;   // of an unknown
 
 std::vector<Eigen::Index> open_unknowns(const Vector& lower, const Vector& upper) {
@@ -32,7 +34,7 @@ Vector first_guess(Study& study, size_t k, JointProblem::Part& part) {
   InferOptions options;
   options.bilateral = study.bilateral(k);
   const Answer answer = infer_from_starts(study.model(k), study.condition(k).target,
-                                          study.prior(k), study.inferring(k), options);
+                                          study.prior(k), study.inferring(k), options, {starts_alone});
   if (answer.activations.size() == 0) return z;
   const auto alone = unknowns(study.model(k), study.prior(k), study.bilateral(k));
   const auto& commands = part.objective.commands();
@@ -116,7 +118,7 @@ Matrix JointFit::jacobian() const {
 
 JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* covariance,
              const Corrections& corrections, const JointFit* start,
-             const std::map<std::string, double>& shared_start) {
+             const std::map<std::string, double>& shared_start, double precision) {
   JointProblem problem(study, shared, covariance, corrections, start);
   JointFit f;
   f.lower = problem.lower(), f.upper = problem.upper(), f.own = problem.own();
@@ -134,7 +136,7 @@ JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* 
     u(part.which) = z;
   }
   u = u.cwiseMax(f.lower).cwiseMin(f.upper);
-  const DescentResult r = descend(problem, u, {40, 1e-3, {}});
+  const DescentResult r = descend(problem, u, {most_steps, precision, {}});
   f.converged = r.converged, f.message = r.message, f.iterations = r.iterations;
   if (r.u.size() == 0) return f;
   f.u = r.u, f.value = r.value;

@@ -58,9 +58,9 @@ using Corrections = std::vector<Vector>;
 /// The unknowns that maximise the posterior under residuals of the given covariance (its factor;
 /// null: independent), by Ipopt from equilibrium to equilibrium (descend()). It starts where
 /// `start` ended, shared parameters that `start` has not at `shared_start` or what is believed of
-/// them; without, each condition is first inverted by itself.
+/// them; without, each condition is first inverted by itself. `precision`: of the log posterior.
 JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* covariance,
              const Corrections& corrections, const JointFit* start = nullptr,
-             const std::map<std::string, double>& shared_start = {});
+             const std::map<std::string, double>& shared_start = {}, double precision = 0.03);
 
 }  // namespace genio

@@ -7,7 +7,7 @@
 namespace genio {
 namespace {
 
-constexpr double tolerance = 1e-6;
+constexpr double tolerance = 1e-4;
 
 /// Parameters of the condition by name, those of left and right evened out where `even`.
 Parameters evened(const Model& to, const Model& from, const Parameters& p, bool even) {
@@ -86,7 +86,7 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c,
   const Model& near = t.mirror ? t.mirror->half : t.coarse;
   const Positions start = t.mirror ? Positions(t.mirror->right_half(rough.x)) : rough.x;
   Positions& fine_start = latest_[condition];
-  if (fine_start.size() == 0) {
+  if (fine_start.size() != t.fine.rest.size()) {
     HexMesh moved = near.mesh;
     for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(start, int(a));
     fine_start = rest_positions(refined(moved, near.description->supports).mesh);

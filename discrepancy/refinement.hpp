@@ -11,6 +11,11 @@ class Refinement {
  public:
   Refinement(ModelDescription description, const Observations& observations)
       : description_(std::move(description)), observations_(observations) {}
+  /// The same conditions with another description; known fine shapes serve as starts.
+  Refinement(ModelDescription description, const Refinement& before)
+      : description_(std::move(description)),
+        observations_(before.observations_),
+        latest_(before.latest_) {}
   /// For every condition of a fit: the residuals of the same problem on a mesh with every element
   /// split in eight, less those of this mesh, in units of the noise; on half a tongue, with the mean
   /// forces of both sides, where the tongue is symmetric. Parameters of the study's models that this

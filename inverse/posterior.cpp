@@ -13,17 +13,6 @@ constexpr double test_level = 0.01;
 constexpr int sample_count = 2000;
 constexpr int prior_sample_count = 1000;
 
-/// Name of the tongue region at a place of the midsagittal line, by its fraction from tip to end.
-std::string region(const TongueLine& line, const Positions& x, const Vec3& place) {
-  const double t = line.closest(x, Vec2(place[0], place[2])).t;
-  const double from_tip = (t - line.tip_parameter()) / (line.length() - line.tip_parameter());
-  return from_tip < 0      ? "underside"
-         : from_tip < 0.1  ? "tip"
-         : from_tip < 0.3  ? "blade"
-         : from_tip < 0.65 ? "dorsum"
-                           : "root";
-}
-
 std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
@@ -193,7 +182,7 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   Eigen::Index worst = 0;
   if (optimum.residuals.distances.size() > 0) optimum.residuals.distances.maxCoeff(&worst);
   const std::string where =
-      region(comparison.line(), optimum.equilibrium.x, optimum.residuals.places[size_t(worst)]);
+      tongue_region(comparison.line(), optimum.equilibrium.x, optimum.residuals.places[size_t(worst)]);
   answer.message =
       test.verdict == Verdict::explained
           ? fmt::format("misfit within noise (p = {:.2g})", test.tail)

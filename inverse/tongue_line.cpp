@@ -100,4 +100,14 @@ std::vector<Vec2> TongueLine::sample(const Positions& x, int count) const {
   return points;
 }
 
+std::string tongue_region(const TongueLine& line, const Positions& x, const Vec3& place) {
+  const double t = line.closest(x, Vec2(place[0], place[2])).t;
+  const double from_tip = (t - line.tip_parameter()) / (line.length() - line.tip_parameter());
+  return from_tip < 0      ? "underside"
+         : from_tip < 0.1  ? "tip"
+         : from_tip < 0.3  ? "blade"
+         : from_tip < 0.65 ? "dorsum"
+                           : "root";
+}
+
 }  // namespace genio

@@ -1,6 +1,7 @@
 #pragma once
 // The tongue's midsagittal surface line as a smooth curve of the nodal positions.
 
+#include <string>
 #include <vector>
 
 #include "forward/model.hpp"
@@ -46,5 +47,10 @@ class TongueLine {
   Matrix dense_;  // weights at equally spaced parameters, one row each
   double tip_ = 0;
 };
+
+/// Name of the part of the tongue that a place of the shape `x` belongs to, by the fraction of the
+/// way from tip to end of its closest point of the midsagittal line: underside, tip, blade, dorsum,
+/// root.
+std::string tongue_region(const TongueLine& line, const Positions& x, const Vec3& place);
 
 }  // namespace genio
