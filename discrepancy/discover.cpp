@@ -38,10 +38,10 @@ std::vector<Matrix> influences_of(Study& study, const JointFit& fit) {
 }
 
 /// Errors at a fit; the mesh's own are found anew.
-Errors errors_at(Study& study, const JointFit& fit, Refinement& refinement,
+Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
                  const ModelDoubt& doubt) {
   Errors e;
-  e.corrections = refinement.corrections(study, fit);
+  if (refinement) e.corrections = refinement->corrections(study, fit);
   e.influences = influences_of(study, fit);
   e.matrix = residual_covariance(study, fit, e.influences, e.corrections, doubt);
   e.covariance.compute(e.matrix);
@@ -138,7 +138,8 @@ class Search {
     base_.fit = fit(*base_.study, {}, nullptr, {}, nullptr, {}, rough);
     if (base_.fit.conditions.size() != fitted.size())
       throw InputError("the model does not reach the conditions: " + base_.fit.message);
-    refinement_ = std::make_unique<Refinement>(base_.description, observations_);
+    if (options_.correct_mesh)
+      refinement_ = std::make_unique<Refinement>(base_.description, observations_);
     // Forces that made up for the mesh go back once it is corrected, and its error with them.
     fit_base(rough), fit_base();
     if (!heldout.empty()) {
@@ -149,7 +150,7 @@ class Search {
                          heldout_fit_.message);
       for (int times = 0; times < 2; ++times) {
         heldout_errors_ =
-            errors_at(*heldout_study_, heldout_fit_, *refinement_, options_.doubt);
+            errors_at(*heldout_study_, heldout_fit_, refinement_.get(), options_.doubt);
         heldout_fit_ = fit(*heldout_study_, {}, &heldout_errors_.covariance,
                            heldout_errors_.corrections, &heldout_fit_);
       }
@@ -163,7 +164,7 @@ class Search {
 
   /// Errors at the base's fit, and the fit again under them.
   void fit_base(double precision = fine) {
-    errors_ = errors_at(*base_.study, base_.fit, *refinement_, options_.doubt);
+    errors_ = errors_at(*base_.study, base_.fit, refinement_.get(), options_.doubt);
     base_.fit =
         fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &base_.fit, {},
             precision);
@@ -265,15 +266,16 @@ class Search {
                                           fitted_conditions(observations_));
     base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &before,
                     {}, rough);
-    refinement_ = std::make_unique<Refinement>(with_fitted(base_.description, base_.fit),
-                                               *refinement_);
+    if (refinement_)
+      refinement_ = std::make_unique<Refinement>(with_fitted(base_.description, base_.fit),
+                                                 *refinement_);
     fit_base();
     if (heldout_study_) {
       HeldoutFit h = fit_heldout(base_, evidence());
       if (h.fit.conditions.size() == heldout_fit_.conditions.size()) {
         heldout_study_ = h.study, heldout_fit_ = h.fit;
         heldout_errors_ =
-            errors_at(*heldout_study_, heldout_fit_, *refinement_, options_.doubt);
+            errors_at(*heldout_study_, heldout_fit_, refinement_.get(), options_.doubt);
         HeldoutFit again = fit_heldout(base_, evidence());
         heldout_fit_ = again.fit, heldout_study_ = again.study;
       }

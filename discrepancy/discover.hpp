@@ -69,6 +69,8 @@ struct Discovery {
 
 struct DiscoverOptions {
   ModelDoubt doubt;
+  /// Correct the shapes for the mesh's own error; false where the data are of the same mesh.
+  bool correct_mesh = true;
   int refits = 5;         ///< candidates refitted a round
   int most_effects = 3;   ///< rounds
   double certain = 0.9;   ///< probability of one effect that names it

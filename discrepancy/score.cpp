@@ -39,6 +39,28 @@ FreeNumber pose_number(const char* name, const char* unit, double typical) {
 /// The parts of the strengths that may be off their absent value in either direction.
 bool one_sided(const FreeNumber& n) { return n.info.absent <= n.info.lower; }
 
+/// dF / d strength as nodal forces [N per unit].
+Forces forces_by(const Hypothesis& h, const FreeNumber& strength, const Model& model,
+                 const FittedCondition& c) {
+  Forces df = Forces::Zero(c.x.size());
+  if (find_effect(model, h.effect)) {  // others may read its parameters too: a jaw that touches
+    for (const std::string& key : strength.keys) {
+      const int k[] = {parameter_index(model, h.effect + "." + key)};
+      df += force_derivatives(model, c.x, c.parameters, k).col(0);
+    }
+    return df;
+  }
+  const auto info = h.made->parameters();
+  std::vector<double> values;
+  for (const ParameterInfo& i : info) values.push_back(i.value);
+  for (const std::string& name : h.made->borrows())
+    values.push_back(c.parameters[parameter_index(model, name)]);
+  for (const std::string& key : strength.keys)
+    for (size_t i = 0; i < info.size(); ++i)
+      if (info[i].name == key) h.made->add_force_derivative(c.x, values, int(i), df);
+  return df;
+}
+
 }  // namespace
 
 std::vector<Candidate> candidates(const ModelDescription& description,
@@ -107,19 +129,9 @@ Matrix signature(const Candidate& candidate, const Study& study, const JointFit&
       block = c.residuals.pose;
       continue;
     }
-    const Effect& effect = *candidate.hypothesis->made;
-    const auto info = effect.parameters();
-    std::vector<double> values;
-    for (const ParameterInfo& i : info) values.push_back(i.value);
-    for (const std::string& name : effect.borrows())
-      values.push_back(c.parameters[parameter_index(study.model(k), name)]);
-    for (Eigen::Index s = 0; s < count; ++s) {
-      Forces df = Forces::Zero(c.x.size());
-      for (const std::string& key : candidate.strengths[size_t(s)].keys)
-        for (size_t i = 0; i < info.size(); ++i)
-          if (info[i].name == key) effect.add_force_derivative(c.x, values, int(i), df);
-      block.col(s) = influences[k] * df;
-    }
+    for (Eigen::Index s = 0; s < count; ++s)
+      block.col(s) = influences[k] * forces_by(*candidate.hypothesis,
+                                               candidate.strengths[size_t(s)], study.model(k), c);
   }
   return result;
 }

@@ -1,0 +1,125 @@
+// Signatures are derivatives of what is measured; scores see what they should and nothing else.
+
+#include "discrepancy/score.hpp"
+
+#include "discrepancy/error_model.hpp"
+#include "discrepancy/influence.hpp"
+#include "tests/discrepancy/posed_tongue.hpp"
+
+namespace genio {
+namespace {
+
+class Scores : public test::PosedTongue {
+ protected:
+  void look_at(const ModelDescription& truth) {
+    observations = observed(truth, true);
+    study = std::make_unique<Study>(with_mobile_supports(tongue), observations,
+                                    fitted_conditions(observations));
+    f = fit(*study, {}, nullptr, {});
+    ASSERT_TRUE(f.converged) << f.message;
+    influences.clear();
+    for (size_t k = 0; k < study->size(); ++k) influences.push_back(influence(*study, f, k));
+    covariance.compute(residual_covariance(*study, f, influences, {}, {}));
+    f = fit(*study, {}, &covariance, {}, &f);
+    ASSERT_TRUE(f.converged) << f.message;
+    influences.clear();
+    for (size_t k = 0; k < study->size(); ++k) influences.push_back(influence(*study, f, k));
+    all = candidates(tongue, observations);
+  }
+  Observations observations;
+  std::unique_ptr<Study> study;
+  JointFit f;
+  std::vector<Matrix> influences;
+  Eigen::LLT<Matrix> covariance;
+  std::vector<Candidate> all;
+};
+
+TEST_F(Scores, SignatureIsTheDerivativeOfTheResiduals) {
+  look_at(tongue);
+  for (const char* name : {"gravity", "jaw_opening", "airway_pressure", "force_length"}) {
+    const auto c = std::find_if(all.begin(), all.end(),
+                                [&](const Candidate& k) { return k.effect == name; });
+    ASSERT_NE(c, all.end());
+    const Matrix exact = signature(*c, *study, f, influences);
+    // The first strength a little off its absent value, forces as they are.
+    const FreeNumber& n = c->strengths.front();
+    const double h = 1e-3 * n.info.typical;
+    ModelDescription with = c->hypothesis->added_to(study->description());
+    with.effects[c->effect][n.keys.front()] = n.info.absent + h;
+    const Model m = build_model(with, "with");
+    Workspace ws(m);
+    Parameters p = default_parameters(m);
+    const FittedCondition& fitted = f.conditions[0];
+    for (size_t k = 0; k < study->model(0).parameters.size(); ++k) {
+      const std::string& key = study->model(0).parameters[k].name;
+      if (!key.starts_with(c->effect)) p[parameter_index(m, key)] = fitted.parameters[Eigen::Index(k)];
+    }
+    const auto e = solve_equilibrium(m, p, fitted.x, ws);
+    ASSERT_TRUE(e) << e.message;
+    const Vector change = (Comparison(m, observations.conditions[0].target)(e.x).values -
+                           fitted.residuals.values) / h;
+    const Vector told = exact.col(0).head(change.size());
+    EXPECT_LT((change - told).norm(), 0.03 * told.norm()) << name;
+  }
+}
+
+TEST_F(Scores, NothingHiddenScoresLowAndAHiddenEffectHighest) {
+  look_at(tongue);
+  {
+    const Projection projection(f, covariance);
+    const auto scores = score(all, *study, f, influences, projection);
+    EXPECT_LT(scores.front().log_evidence, 1);
+  }
+  ModelDescription truth = tongue;
+  truth.effects["airway_pressure"] = {{"pressure", 400}};
+  look_at(truth);
+  const Projection projection(f, covariance);
+  const auto scores = score(all, *study, f, influences, projection);
+  EXPECT_EQ(all[scores.front().candidate].effect, "airway_pressure");
+  EXPECT_NEAR(scores.front().estimate[0], 400, 100);
+  EXPECT_LT(scores.front().p, 1e-6);
+}
+
+TEST_F(Scores, ProjectionTakesAwayWhatTheUnknownsCanDo) {
+  look_at(tongue);
+  const Projection projection(f, covariance);
+  const Matrix p = projection(f.jacobian());
+  // What is left of a tangent is what the prior holds back; twice is once.
+  const Matrix r = projection(Matrix::Identity(f.jacobian().rows(), f.jacobian().rows()));
+  EXPECT_LE(p.norm(), Matrix(covariance.matrixL().solve(f.jacobian())).norm());
+  EXPECT_LE(r.colwise().norm().maxCoeff(),
+            Matrix(covariance.matrixL().solve(Matrix::Identity(r.cols(), r.cols())))
+                    .colwise().norm().maxCoeff() * (1 + 1e-9));
+  EXPECT_GT(projection.dof(), 0);
+  EXPECT_LT(projection.dof(), double(f.residuals().size()));
+}
+
+TEST_F(Scores, TurnedFibresStillBalance) {
+  look_at(tongue);
+  const FittedCondition& c = f.conditions[0];
+  Matrix sum = Matrix::Zero(3, c.x.size());
+  for (Eigen::Index i = 0; i < c.x.size(); ++i) sum(i % 3, i) = 1;
+  const Matrix total = fibre_influence(study->model(0), c, sum);
+  // Of a single node's force a turn makes something.
+  Matrix single = Matrix::Zero(1, c.x.size());
+  single(0, 3 * study->model(0).muscles[0].fibres[0][1].node) = 1;
+  const double some = fibre_influence(study->model(0), c, single).norm();
+  EXPECT_GT(some, 0);
+  EXPECT_LT(total.norm(), 1e-9 * some);
+}
+
+TEST(NoiseCovariance, IsWhiteWithoutALengthAndPositiveDefiniteWithOne) {
+  const Model m = read_model(test::generic_model());
+  Target t = curve_target(m, m.rest, 40, 5e-4);
+  t.surface.push_back({Vec3(0.1, 0.01, 0.12), 5e-4, 1});
+  const Residuals r = Comparison(m, t)(m.rest);
+  EXPECT_TRUE(noise_covariance(t, r, 0).isIdentity(0));
+  const Matrix c = noise_covariance(t, r, 8e-3);
+  EXPECT_TRUE(c.isApprox(c.transpose()));
+  EXPECT_EQ(Eigen::LLT<Matrix>(c).info(), Eigen::Success);
+  EXPECT_GT(c(10, 11), 0.3);
+  EXPECT_EQ(c(10, 40), 0);  // another contour
+}
+
+}  // namespace
+}  // namespace genio
