@@ -32,6 +32,7 @@ Json found_json(const Discovery& d) {
           {"heldout_excess_before_mm", excess(d.heldout_before)},
           {"heldout_excess_after_mm", excess(d.heldout_after)},
           {"chi2_over_dof", d.rounds.front().chi_square / d.rounds.front().dof},
+          {"probability_of_nothing", d.rounds.front().nothing},
           {"fit_p", d.fit_tail},
           {"scoring_s", d.rounds.front().seconds_scoring},
           {"wall_s", d.seconds}};

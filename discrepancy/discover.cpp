@@ -157,7 +157,7 @@ class Search {
     }
     d_.first = base_.fit, d_.heldout_first = heldout_fit_;
     d_.before = gap_of(base_.fit, d_.noise), d_.heldout_before = gap_of(heldout_fit_, d_.noise);
-    base_.heldout_log_evidence = heldout_fit_.log_evidence;
+    base_.heldout = heldout_fit_;
     tell(fmt::format("gap {:.2f} mm ({:.2f} mm held out), noise {:.2f} mm", 1e3 * d_.before.rms,
                      1e3 * d_.heldout_before.rms, 1e3 * d_.noise));
   }
@@ -210,23 +210,49 @@ class Search {
       accounts[i] = refit(base_, r.candidate, scores[i], evidence());
       r.message = accounts[i].message;
       if (!accounts[i].fitted()) continue;
-      accounts[i].heldout_log_evidence = fit_heldout(accounts[i], evidence()).fit.log_evidence;
+      accounts[i].heldout = fit_heldout(accounts[i], evidence()).fit;
       r.refitted = true;
       gained = std::max(gained, accounts[i].fit.log_evidence - base_.fit.log_evidence);
       refitted.push_back(i);
-      r.log_odds = accounts[i].fit.log_evidence - base_.fit.log_evidence +
-                   accounts[i].heldout_log_evidence - base_.heldout_log_evidence +
-                   prior[scores[i].candidate];
-      tell(fmt::format("    log odds {:.1f} (fitted {:+.1f}, held out {:+.1f}), chi2 {:.0f} of {:.0f}",
-                       r.log_odds, accounts[i].fit.log_evidence - base_.fit.log_evidence,
-                       accounts[i].heldout_log_evidence - base_.heldout_log_evidence,
+      r.log_odds = odds(accounts[i]) + prior[scores[i].candidate];
+      tell(fmt::format("    log odds {:.1f}, chi2 {:.0f} of {:.0f}", r.log_odds,
                        accounts[i].chi_square, accounts[i].dof));
     }
-    const size_t best = weigh(round, refitted);
+    size_t best = weigh(round, refitted);
+    if (!refitted.empty() && round.nothing < options_.nothing &&
+        follow(accounts[best])) {
+      for (size_t i : refitted)
+        round.candidates[i].log_odds = odds(accounts[i]) + prior[scores[i].candidate];
+      best = weigh(round, refitted);
+    }
     const bool go_on = !refitted.empty() && round.nothing < options_.nothing;
     if (go_on) accept(round, best, std::move(accounts[best]));
     d_.rounds.push_back(std::move(round));
     return go_on;
+  }
+
+  /// Log evidence of an account over the base's, on all data.
+  double odds(const Account& a) const {
+    return a.fit.log_evidence - base_.fit.log_evidence + a.heldout.log_evidence -
+           base_.heldout.log_evidence;
+  }
+
+  /// Lets the base start where a better account ended: that may have found a valley of the forces
+  /// that has nothing to do with what it adds. True where the base got better by it.
+  bool follow(const Account& better) {
+    const double before = base_.fit.log_evidence + base_.heldout.log_evidence;
+    const JointFit again = fit(*base_.study, base_.shared, &errors_.covariance,
+                               errors_.corrections, &better.fit);
+    if (again.converged && again.log_evidence > base_.fit.log_evidence) base_.fit = again;
+    if (heldout_study_ && better.heldout.converged) {
+      const JointFit h = fit(*heldout_study_, {}, &heldout_errors_.covariance,
+                             heldout_errors_.corrections, &better.heldout);
+      if (h.converged && h.log_evidence > base_.heldout.log_evidence)
+        base_.heldout = heldout_fit_ = h;
+    }
+    const double gain = base_.fit.log_evidence + base_.heldout.log_evidence - before;
+    if (gain > 0) tell(fmt::format("  the model as it is does better from there: {:+.1f}", gain));
+    return gain > 0;
   }
 
   /// Probabilities of all accounts: refitted ones by their evidence, the others by their scores,
@@ -279,7 +305,7 @@ class Search {
         HeldoutFit again = fit_heldout(base_, evidence());
         heldout_fit_ = again.fit, heldout_study_ = again.study;
       }
-      base_.heldout_log_evidence = heldout_fit_.log_evidence;
+      base_.heldout = heldout_fit_;
     }
   }
 

@@ -13,7 +13,7 @@ struct Account {
   std::shared_ptr<Study> study;        ///< of the fitted conditions
   JointFit fit;
   double chi_square = 0, dof = 0;      ///< of the residuals
-  double heldout_log_evidence = 0;     ///< of the conditions held out, its parameters as fitted
+  JointFit heldout;                    ///< conditions held out, its parameters as fitted
   double probability = 0;              ///< among all accounts that were tried
   std::string message;                 ///< why it could not be fitted
 

@@ -15,6 +15,18 @@ Json effect_json(const NamedEffect& e) {
           {"sd", sd},           {"interval90", interval},    {"confidence", e.confidence}};
 }
 
+Json triple(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+Json where_json(const Discovery& d) {
+  Json patches = Json::array();
+  for (const MapPatch& p : d.map_before.patches)
+    patches.push_back({{"condition", p.condition},
+                       {"region", p.region},
+                       {"mean_mm", 1e3 * p.mean},
+                       {"points", p.points}});
+  return patches;
+}
+
 Json round_json(const Round& round) {
   Json candidates = Json::array();
   for (const Ranked& r : round.candidates) {
@@ -63,6 +75,13 @@ Json to_json(const Discovery& d, const std::string& model) {
           {"noise_mm", 1e3 * d.noise},
           {"fit_p", d.fit_tail},
           {"model", model.empty() ? Json() : Json(model)},
+          {"where", where_json(d)},
+          {"hidden_force",
+           {{"log_evidence", d.hidden.log_evidence},
+            {"total_N", d.hidden.total},
+            {"centre_mm", triple(1e3 * d.hidden.centre)},
+            {"resultant_N", triple(d.hidden.resultant)},
+            {"region", d.hidden.region}}},
           {"rounds", rounds},
           {"wall_s", d.seconds}};
 }

@@ -1,0 +1,166 @@
+#include "report/discovery_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/svg.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double panel = 250, gap = 20;       // [px]
+constexpr double full_colour = 2e-3;          // [m]
+
+std::string colour(double distance) {
+  const double t = std::clamp(std::abs(distance) / full_colour, 0.0, 1.0);
+  const int pale = int(225 - 200 * t);
+  return distance > 0 ? fmt::format("rgb(215,{0},{0})", pale)
+                      : fmt::format("rgb({0},{0},215)", pale);
+}
+
+void draw_map(Svg& svg, const ResidualMap& map, size_t condition, double left, double top,
+              const std::string& title) {
+  svg.rect(left, top, panel, panel, {"#ddd"});
+  svg.text(left + 8, top + 16, title, 12, "start", "#444");
+  Axes axes{1e9, -1e9, 1e9, -1e9, left + 15, top + 25, panel - 30, panel - 40};
+  for (const MapPoint& p : map.points) {
+    axes.x0 = std::min(axes.x0, p.place[0]), axes.x1 = std::max(axes.x1, p.place[0]);
+    axes.y0 = std::min(axes.y0, p.place[2]), axes.y1 = std::max(axes.y1, p.place[2]);
+  }
+  const double size = std::max(axes.x1 - axes.x0, axes.y1 - axes.y0);
+  axes.x1 = axes.x0 + size, axes.y1 = axes.y0 + size;
+  for (const MapPoint& p : map.points)
+    if (p.condition == condition)
+      svg.circle(axes.px(p.place[0]), axes.py(p.place[2]), p.beyond ? 4.2 : 3.0,
+                 {p.beyond ? "#111" : "none", colour(p.distance), p.beyond ? 1.2 : 0});
+}
+
+std::string labelled(const std::string& effect, const std::string& where) {
+  return where.empty() ? effect : effect + " (" + where + ")";
+}
+
+std::string html_text(const std::string& s) {
+  std::string out;
+  for (char c : s) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else out += c;
+  }
+  return out;
+}
+
+std::string gap_row(const char* what, const Gap& before, const Gap& after, double noise) {
+  return fmt::format(
+      "<tr><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n", what,
+      1e3 * before.rms, 1e3 * after.rms, before.rms / noise, after.rms / noise);
+}
+
+std::string effects_part(const Discovery& d) {
+  std::string s;
+  for (const NamedEffect& e : d.effects) {
+    s += fmt::format("<h3>{}</h3><p>Probability among all accounts tried: {:.3f}.</p>\n<table>",
+                     html_text(labelled(e.effect, e.where)), e.confidence);
+    s += "<tr><th>parameter</th><th>value</th><th>sd</th><th>90 % interval</th><th>unit</th></tr>";
+    for (const SharedEstimate& p : e.parameters)
+      s += fmt::format("<tr><td>{}</td><td>{:.4g}</td><td>{:.2g}</td><td>{:.4g} to {:.4g}</td>"
+                       "<td>{}</td></tr>\n",
+                       html_text(p.name), p.value, p.sd, p.low, p.high, html_text(p.unit));
+    s += "</table>\n";
+  }
+  if (d.effects.empty()) s += "<p>No effect is named.</p>\n";
+  for (const Rival& r : d.alternatives)
+    s += fmt::format("<p>Or {}: probability {:.3f}; its signature is like the first one's by "
+                     "{:.2f}.</p>\n",
+                     html_text(labelled(r.effect, r.where)), r.probability, r.similarity);
+  return s;
+}
+
+std::string patches_part(const Discovery& d, const Observations& o) {
+  const auto& patches = d.map_before.patches;
+  if (patches.empty())
+    return fmt::format("<p>No place lies beyond noise (false-discovery rate {} %).</p>\n",
+                       100 * d.map_before.false_discovery_rate);
+  std::string s = "<table><tr><th>condition</th><th>place</th><th>points</th><th>data lie</th></tr>";
+  for (size_t i = 0; i < std::min<size_t>(patches.size(), 12); ++i)
+    s += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f} mm {}</td></tr>\n",
+                     html_text(o.conditions[patches[i].condition].name), patches[i].region,
+                     patches[i].points, 1e3 * std::abs(patches[i].mean),
+                     patches[i].mean > 0 ? "outside" : "inside");
+  return s + "</table>\n";
+}
+
+}  // namespace
+
+std::string draw_maps(const Discovery& d, const Observations& o) {
+  std::vector<size_t> shown;
+  for (const MapPoint& p : d.map_before.points)
+    if (shown.empty() || shown.back() != p.condition) shown.push_back(p.condition);
+  Svg svg(2 * panel + 3 * gap, double(shown.size()) * (panel + gap) + gap);
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const double top = gap + double(i) * (panel + gap);
+    const std::string& name = o.conditions[shown[i]].name;
+    draw_map(svg, d.map_before, shown[i], gap, top, name + ", before");
+    draw_map(svg, d.map_after, shown[i], 2 * gap + panel, top, name + ", after");
+  }
+  return svg.str();
+}
+
+std::string draw_ranking(const Round& round, size_t most) {
+  std::vector<const Ranked*> shown;
+  for (const Ranked& r : round.candidates)
+    if (r.score.visible && shown.size() < most) shown.push_back(&r);
+  double low = 0, high = 1;
+  for (const Ranked* r : shown) low = std::min(low, r->log_odds), high = std::max(high, r->log_odds);
+  constexpr double row = 22, left = 250, width = 380;
+  Svg svg(left + width + 80, row * double(shown.size()) + 20);
+  const auto x = [&](double v) { return left + (v - low) / (high - low) * width; };
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const Ranked& r = *shown[i];
+    const double y = 10 + row * double(i), v = r.log_odds;
+    svg.text(left - 8, y + 14, r.candidate.label(), 12, "end");
+    svg.rect(std::min(x(0), x(v)), y + 2, std::max(1.0, std::abs(x(v) - x(0))), row - 6,
+             {"none", r.refitted ? "#1f5fa8" : "#a9c3e0"});
+    svg.text(std::max(x(0), x(v)) + 6, y + 14, fmt::format("{:.1f}", v), 11, "start", "#555");
+  }
+  return svg.str();
+}
+
+std::string discovery_page(const Discovery& d, const Observations& o, const std::string& title) {
+  std::string s = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
+      "<style>body{{font-family:sans-serif;max-width:60em;margin:2em auto;color:#222}}"
+      "table{{border-collapse:collapse}}td,th{{border:1px solid #ccc;padding:.3em .7em;"
+      "text-align:left}}svg{{max-width:100%;height:auto}}</style></head><body>\n<h1>{0}</h1>\n"
+      "<p><b>{1}</b>: {2}.</p>\n",
+      html_text(title), to_string(d.finding), html_text(d.message));
+  s += "<h2>Where</h2>\n" + patches_part(d, o);
+  if (d.hidden.log_evidence > 0)
+    s += fmt::format(
+        "<p>The smallest force field that would close the gap: {:.2g} N in all, about the {} "
+        "(x {:.0f}, y {:.0f}, z {:.0f} mm); together ({:.2g}, {:.2g}, {:.2g}) N backwards, to the "
+        "right and up; log evidence {:.1f} over none.</p>\n",
+        d.hidden.total, d.hidden.region, 1e3 * d.hidden.centre[0], 1e3 * d.hidden.centre[1],
+        1e3 * d.hidden.centre[2], d.hidden.resultant[0], d.hidden.resultant[1],
+        d.hidden.resultant[2], d.hidden.log_evidence);
+  s += "<h2>What</h2>\n" + effects_part(d);
+  s += "<h2>How sure</h2>\n<p>Log odds against nothing being missing; dark: refitted in full, pale: "
+       "by the score alone.</p>\n";
+  for (size_t i = 0; i < d.rounds.size(); ++i)
+    s += fmt::format("<h3>Effect {}</h3>\n<p>Chi-square {:.0f} of {:.0f} degrees of freedom before; "
+                     "probability that nothing (more) is missing {:.2g}.</p>\n{}",
+                     i + 1, d.rounds[i].chi_square, d.rounds[i].dof, d.rounds[i].nothing,
+                     draw_ranking(d.rounds[i], 14));
+  s += fmt::format(
+      "<h2>What changed</h2>\n<table><tr><th>gap, RMS</th><th>before [mm]</th><th>after [mm]</th>"
+      "<th>before / noise</th><th>after / noise</th></tr>\n{}{}</table>\n<p>Noise {:.2f} mm; what "
+      "is left is noise with p = {:.2g}.</p>\n{}</body></html>\n",
+      gap_row("fitted conditions", d.before, d.after, d.noise),
+      gap_row("held-out conditions", d.heldout_before, d.heldout_after, d.noise), 1e3 * d.noise,
+      d.fit_tail, draw_maps(d, o));
+  return s;
+}
+
+}  // namespace genio
