@@ -1,3 +1,5 @@
+#include "discrepancy/discover.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -5,7 +7,6 @@
 
 #include "bench/discover_table.hpp"
 #include "bench/hidden_data.hpp"
-#include "discrepancy/discover.hpp"
 
 namespace genio::bench {
 namespace {
@@ -18,7 +19,9 @@ Json found_json(const Discovery& d) {
     Json p = Json::object();
     for (const SharedEstimate& s : e.parameters)
       p[s.name.substr(s.name.find('.') + 1)] = {s.value, s.low, s.high};
-    effects.push_back({{"effect", e.effect}, {"where", e.where}, {"confidence", e.confidence},
+    effects.push_back({{"effect", e.effect},
+                       {"where", e.where},
+                       {"confidence", e.confidence},
                        {"parameters", p}});
   }
   for (const Rival& r : d.alternatives)
@@ -61,7 +64,8 @@ std::vector<HiddenCase> discover_cases() {
                 unsigned(100 * (i + 1) + 10 * k) + (strength == 1 ? 0 : 1), k + 1);
       }
     for (unsigned truth = 0; truth < 10; ++truth)
-      for (unsigned draw = 0; draw < 10; ++draw) add("nothing", {}, 0, known, 5000 + truth, draw + 1);
+      for (unsigned draw = 0; draw < 10; ++draw)
+        add("nothing", {}, 0, known, 5000 + truth, draw + 1);
     const std::vector<std::pair<const char*, const char*>> pairs = {
         {"gravity", "stiff_region"},         {"jaw_opening", "weak_muscle"},
         {"airway_pressure", "mucosa_layer"}, {"palate_contact", "fibre_anisotropy"},
@@ -77,13 +81,15 @@ std::vector<HiddenCase> discover_cases() {
 
 Json run_discover_case(const ModelDescription& tongue, const HiddenCase& c,
                        const std::string& folder) {
-  const std::string data = folder + "/data/" + c.name, answer = folder + "/answers/" + c.name + ".json";
+  const std::string data = folder + "/data/" + c.name,
+                    answer = folder + "/answers/" + c.name + ".json";
   fs::create_directories(folder + "/answers");
   Json hidden;
   if (std::ifstream in(answer); in) in >> hidden;
   Json result = {{"case", c.name}};
   try {
-    if (hidden.is_null() || (!hidden.contains("failed") && !fs::exists(data + "/observations.toml")))
+    if (hidden.is_null() ||
+        (!hidden.contains("failed") && !fs::exists(data + "/observations.toml")))
       hidden = make_hidden_data(tongue, c, data, answer);
     result["answer"] = hidden;
     if (hidden.contains("failed")) return result;

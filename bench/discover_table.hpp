@@ -5,8 +5,8 @@
 
 namespace genio::bench {
 
-/// Every data set of the benchmark: each effect at strengths 1 and 0.5 three times, nothing hidden a
-/// hundred times (10 truths, 10 draws of noise), two effects ten times, effects of no library six
+/// Every data set of the benchmark: each effect at strengths 1 and 0.5 three times, nothing hidden
+/// a hundred times (10 truths, 10 draws of noise), two effects ten times, effects of no library six
 /// times; with forces known to 10 %, and unknown.
 std::vector<HiddenCase> discover_cases();
 

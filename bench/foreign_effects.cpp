@@ -64,10 +64,8 @@ std::vector<std::pair<int, int>> Tether::couplings() const {
   return pairs;
 }
 
-HexMesh with_lump(HexMesh mesh, const Vec3& at, const Vec3& outward, double radius,
-                  double height) {
-  for (Vec3& x : mesh.nodes)
-    x += height * bell((x - at).norm(), radius) * outward.normalized();
+HexMesh with_lump(HexMesh mesh, const Vec3& at, const Vec3& outward, double radius, double height) {
+  for (Vec3& x : mesh.nodes) x += height * bell((x - at).norm(), radius) * outward.normalized();
   return mesh;
 }
 

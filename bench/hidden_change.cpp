@@ -23,9 +23,14 @@ HiddenChange by_table(const std::string& name, std::function<Table(double)> tabl
   return c;
 }
 
-HiddenChange by_number(const std::string& name, const std::string& key, double absent,
-                       double unit, double first, double most) {
-  return by_table(name, [=](double s) { return Table{{key, absent + s * unit}}; }, first, most);
+HiddenChange by_number(const std::string& name, const std::string& key, double absent, double unit,
+                       double first, double most) {
+  return by_table(
+      name,
+      [=](double s) {
+        return Table{{key, absent + s * unit}};
+      },
+      first, most);
 }
 
 /// A bone that touches; the nearer it lies the more it does. Its place is known to the model.
@@ -73,7 +78,10 @@ HiddenChange stiff_region(const ModelDescription& d, std::mt19937& random) {
   auto c = by_table(
       "stiff_region",
       [=](double s) {
-        return Table{{"factor", softer ? std::max(0.05, 1 / (1 + s)) : 1 + s}, {"x", at[0]}, {"y", at[1]}, {"z", at[2]},
+        return Table{{"factor", softer ? std::max(0.05, 1 / (1 + s)) : 1 + s},
+                     {"x", at[0]},
+                     {"y", at[1]},
+                     {"z", at[2]},
                      {"radius", radius}};
       },
       4, 60);
@@ -131,9 +139,8 @@ HiddenChange extra_muscle(const ModelDescription& d, std::mt19937& random) {
   auto c = by_table(
       "extra_muscle",
       [=](double s) {
-        return Table{{"from_x", from[0]}, {"from_y", from[1]}, {"from_z", from[2]},
-                     {"to_x", to[0]},     {"to_y", to[1]},     {"to_z", to[2]},
-                     {"force", s}};
+        return Table{{"from_x", from[0]}, {"from_y", from[1]}, {"from_z", from[2]}, {"to_x", to[0]},
+                     {"to_y", to[1]},     {"to_z", to[2]},     {"force", s}};
       },
       2, 40);
   c.symmetric = symmetric;
@@ -186,11 +193,24 @@ HiddenChange tether(const ModelDescription& d, std::mt19937& random) {
 }  // namespace
 
 const std::vector<std::string>& hidden_names() {
-  static const std::vector<std::string> names = {
-      "palate_contact",  "jaw_contact",  "gravity",      "active_stiffening", "fibre_anisotropy",
-      "material_nonlinearity", "compressibility", "mucosa_layer", "stiff_region", "weak_muscle",
-      "extra_muscle",    "force_length", "jaw_opening",  "hyoid_mobility",    "airway_pressure",
-      "head_pose",       "lump",         "tether"};
+  static const std::vector<std::string> names = {"palate_contact",
+                                                 "jaw_contact",
+                                                 "gravity",
+                                                 "active_stiffening",
+                                                 "fibre_anisotropy",
+                                                 "material_nonlinearity",
+                                                 "compressibility",
+                                                 "mucosa_layer",
+                                                 "stiff_region",
+                                                 "weak_muscle",
+                                                 "extra_muscle",
+                                                 "force_length",
+                                                 "jaw_opening",
+                                                 "hyoid_mobility",
+                                                 "airway_pressure",
+                                                 "head_pose",
+                                                 "lump",
+                                                 "tether"};
   return names;
 }
 
@@ -201,7 +221,11 @@ HiddenChange hidden_change(const std::string& name, const ModelDescription& tong
   if (name == "jaw_contact") return contact(name, {1, 0, 0});
   if (name == "gravity")
     return by_table(
-        name, [](double s) { return Table{{"x", 0}, {"y", 0}, {"z", -9.81 * s}}; }, 1, 2);
+        name,
+        [](double s) {
+          return Table{{"x", 0}, {"y", 0}, {"z", -9.81 * s}};
+        },
+        1, 2);
   if (name == "active_stiffening") return by_number(name, "factor", 1, 1, 9, 90);
   if (name == "fibre_anisotropy") return by_number(name, "modulus", 0, 1e3, 4, 200);
   if (name == "material_nonlinearity") return by_number(name, "a20", 0, 1e3, 3, 90);

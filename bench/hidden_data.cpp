@@ -111,8 +111,7 @@ struct Changes {
 
 void lay(std::vector<Measured>& points, const HeadPose& pose) {
   Vec2 middle = Vec2::Zero();
-  for (const auto& p : points)
-    middle += Vec2(p.position[0], p.position[2]) / double(points.size());
+  for (const auto& p : points) middle += Vec2(p.position[0], p.position[2]) / double(points.size());
   const MovedTarget moved(pose, middle);
   for (auto& p : points) p.position = moved(p.position);
 }
@@ -146,8 +145,8 @@ double excess(const ModelDescription& tongue, const Changes& changes,
     const Residuals r = Comparison(without, target_of(points, what.noise))(a.x);
     const auto commands = muscle_commands(without, !what.forces_known);
     const Matrix j = residual_jacobian(
-        r, sensitivity_to_forces(without, a,
-                                 command_pulls(without, commands, a.x, a.parameters), ws));
+        r,
+        sensitivity_to_forces(without, a, command_pulls(without, commands, a.x, a.parameters), ws));
     Matrix h = j.transpose() * j;
     for (size_t i = 0; i < commands.size(); ++i) {
       double sd = effort_sd;
@@ -180,11 +179,12 @@ bool find_amplitude(const ModelDescription& tongue, const HiddenChange& change,
     }
     if (high < 0) {
       if (s >= change.most) return false;
-      s = std::min(change.most, at_low > 0 ? std::clamp(s * strength / at_low, 1.3 * s, 4 * s) : 3 * s);
+      s = std::min(change.most,
+                   at_low > 0 ? std::clamp(s * strength / at_low, 1.3 * s, 4 * s) : 3 * s);
     } else {
-      s = e > 0 && e > strength ? std::clamp(s * strength / e, low + 0.1 * (high - low),
-                                             low + 0.9 * (high - low))
-                                : 0.5 * (low + high);
+      s = e > 0 && e > strength
+              ? std::clamp(s * strength / e, low + 0.1 * (high - low), low + 0.9 * (high - low))
+              : 0.5 * (low + high);
     }
   }
   return false;
@@ -198,8 +198,7 @@ Equilibrium fine_shape(const Model& fine, const Model& coarse, const Forces_N& f
   if (!rough) return rough;
   HexMesh moved = coarse.mesh;
   for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(rough.x, int(a));
-  const Positions start =
-      rest_positions(refined(moved, coarse.description->supports).mesh);
+  const Positions start = rest_positions(refined(moved, coarse.description->supports).mesh);
   SolveOptions options;
   options.tolerance = 1e-7;
   return solve_equilibrium(fine, commanded(fine, forces, half), start, ws, options);
@@ -235,8 +234,7 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
       c = hidden_change(name, tongue, most_used(fitted, tongue), what.forces_known, random);
       found = find_amplitude(tongue, c, fitted, what, what.strength, s);
     }
-    if (!found)
-      return failed(fmt::format("{}: strength {} is out of reach", name, what.strength));
+    if (!found) return failed(fmt::format("{}: strength {} is out of reach", name, what.strength));
     changes.all.push_back(c), changes.s.push_back(s);
   }
   ModelDescription coarse = changes.truth(turned(tongue, what.seed));
@@ -260,8 +258,8 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
     add_noise(points, what.noise, what.correlation, noise);
     const std::string name = fmt::format("posture{}", k + 1);
     write_target(folder + "/" + name + ".csv", points);
-    toml += fmt::format("\n[[condition]]\nname = \"{}\"\ntarget = \"{}.csv\"\nheldout = {}\n",
-                        name, name, k >= size_t(what.fitted));
+    toml += fmt::format("\n[[condition]]\nname = \"{}\"\ntarget = \"{}.csv\"\nheldout = {}\n", name,
+                        name, k >= size_t(what.fitted));
     if (!what.forces_known) continue;
     std::vector<std::string> entries;
     for (const Muscle& m : tongue.muscles) {

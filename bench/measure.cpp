@@ -88,8 +88,8 @@ std::vector<Measured> surface_of(const Model& model, const Positions& x, int sca
   std::vector<Measured> points;
   for (int tries = 0; tries < 20 * scattered && int(points.size()) < scattered; ++tries) {
     const double s = uniform(random), angle = -1.2 + 2.4 * uniform(random);
-    const Vec3 along = s < 0.5 ? Vec3(tip + 2 * s * (dorsum - tip))
-                               : Vec3(dorsum + (2 * s - 1) * (root - dorsum));
+    const Vec3 along =
+        s < 0.5 ? Vec3(tip + 2 * s * (dorsum - tip)) : Vec3(dorsum + (2 * s - 1) * (root - dorsum));
     const Vec3 from = along + Vec3(s < 0.5 ? 0.005 : -0.01, -along[1], -depth);
     const Vec3 up = s < 0.5 ? Vec3(0, 0, 1) : Vec3(2 * s - 1, 0, 2 - 2 * s).normalized();
     Vec3 hit;
@@ -109,8 +109,9 @@ void add_noise(std::vector<Measured>& points, double sd, double length, std::mt1
     Matrix c(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
-        c(i, j) = std::exp(-(points[members[size_t(i)]].position -
-                             points[members[size_t(j)]].position).norm() / length);
+        c(i, j) = std::exp(
+            -(points[members[size_t(i)]].position - points[members[size_t(j)]].position).norm() /
+            length);
     const Matrix factor = c.llt().matrixL();
     for (int axis = 0; axis < 3; ++axis) {
       Vector e(n);

@@ -59,10 +59,10 @@ int run(const BenchOptions& o) {
 
 Runner add_bench(CLI::App& app) {
   auto o = std::make_shared<BenchOptions>();
-  app.add_option(
-         "what", o->what,
-         "forward, dynamic, robustness, verification, inverse, reach, peer, gesture, discover, service, "
-         "ultrasound, grenoble")
+  app.add_option("what", o->what,
+                 "forward, dynamic, robustness, verification, inverse, reach, peer, gesture, "
+                 "discover, service, "
+                 "ultrasound, grenoble")
       ->required()
       ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse", "reach",
                              "peer", "gesture", "discover", "service", "ultrasound", "grenoble"}));
@@ -71,13 +71,15 @@ Runner add_bench(CLI::App& app) {
                  "grenoble, peer, dynamic, verification: folder of the ANSYS files");
   app.add_option("--target", o->target, "ultrasound: contours, one label a word");
   app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
-  app.add_option("--sample", o->sample, "Random cases: robustness (500), reach (200), inverse (20), discover (all)")
+  app.add_option("--sample", o->sample,
+                 "Random cases: robustness (500), reach (200), inverse (20), discover (all)")
       ->check(CLI::Range(1, 100000));
   app.add_option("--threads", o->threads, "discover: data sets at a time")
       ->check(CLI::Range(1, 1024));
   app.add_option("--seed", o->seed, "discover: which random cases a sample takes");
   app.add_flag("--all", o->all, "ultrasound: every frame, not one a word");
-  app.add_option("--out", o->out, "verification: folder for its tables and plots; discover: for data and results");
+  app.add_option("--out", o->out,
+                 "verification: folder for its tables and plots; discover: for data and results");
   app.add_flag("--json", o->json, "One JSON object on standard output");
   app.footer("Example: genio bench inverse");
   return [o] { return run(*o); };

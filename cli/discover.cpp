@@ -22,8 +22,8 @@ struct Options {
 void print_table(const Discovery& d) {
   fmt::print("{}: {}\n", to_string(d.finding), d.message);
   for (const NamedEffect& e : d.effects) {
-    fmt::print("  {}{}  probability {:.3f}\n", e.effect, e.where.empty() ? "" : " (" + e.where + ")",
-               e.confidence);
+    fmt::print("  {}{}  probability {:.3f}\n", e.effect,
+               e.where.empty() ? "" : " (" + e.where + ")", e.confidence);
     for (const SharedEstimate& p : e.parameters)
       fmt::print("    {} = {:.4g} {}  (90 %: {:.4g} to {:.4g})\n", p.name, p.value, p.unit, p.low,
                  p.high);

@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
   add("import", "Make a model folder from foreign files", add_import);
   add("forward", "Shape from muscle forces", add_forward);
   add("invert", "Muscle forces from measured shapes in a file", add_invert);
-  add("discover", "What a model misses, from measured shapes under several conditions", add_discover);
+  add("discover", "What a model misses, from measured shapes under several conditions",
+      add_discover);
   add("serve", "Answer shape requests over LCM", add_serve);
   add("request", "Ask a server", add_request);
   add("bench", "Figures of merit, measured here", add_bench);

@@ -21,7 +21,12 @@ std::string duration(double seconds) {
 }  // namespace
 
 ProgressLine::ProgressLine(int done, int total, std::string items)
-    : items_(std::move(items)), first_(done), done_(done), total_(total), terminal_(isatty(STDERR_FILENO)), started_(now()) {}
+    : items_(std::move(items)),
+      first_(done),
+      done_(done),
+      total_(total),
+      terminal_(isatty(STDERR_FILENO)),
+      started_(now()) {}
 
 void ProgressLine::step() {
   ++done_;

@@ -87,10 +87,9 @@ std::vector<size_t> worth_a_refit(const std::vector<Candidate>& all,
                                   const std::vector<double>& prior, int most) {
   std::vector<size_t> order(scores.size()), result;
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto odds = [&](size_t i) {
-    return scores[i].log_evidence + prior[scores[i].candidate];
-  };
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return odds(a) > odds(b); });
+  const auto odds = [&](size_t i) { return scores[i].log_evidence + prior[scores[i].candidate]; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return odds(a) > odds(b); });
   std::map<std::string, int> count;
   for (size_t i : order) {
     if (int(result.size()) >= most || !scores[i].visible) break;
@@ -132,8 +131,8 @@ class Search {
   void begin() {
     const auto fitted = fitted_conditions(observations_);
     const auto heldout = heldout_conditions(observations_);
-    base_.study = std::make_shared<Study>(with_mobile_supports(base_.description), observations_,
-                                          fitted);
+    base_.study =
+        std::make_shared<Study>(with_mobile_supports(base_.description), observations_, fitted);
     tell(fmt::format("{} conditions to fit, {} held out", fitted.size(), heldout.size()));
     base_.fit = fit(*base_.study, {}, nullptr, {}, nullptr, {}, rough);
     if (base_.fit.conditions.size() != fitted.size())
@@ -165,9 +164,8 @@ class Search {
   /// Errors at the base's fit, and the fit again under them.
   void fit_base(double precision = fine) {
     errors_ = errors_at(*base_.study, base_.fit, refinement_.get(), options_.doubt);
-    base_.fit =
-        fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &base_.fit, {},
-            precision);
+    base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections,
+                    &base_.fit, {}, precision);
     const Projection projection(base_.fit, errors_.covariance);
     base_.chi_square = projection.chi_square(), base_.dof = projection.dof();
   }
@@ -219,8 +217,7 @@ class Search {
                        accounts[i].chi_square, accounts[i].dof));
     }
     size_t best = weigh(round, refitted);
-    if (!refitted.empty() && round.nothing < options_.nothing &&
-        follow(accounts[best])) {
+    if (!refitted.empty() && round.nothing < options_.nothing && follow(accounts[best])) {
       for (size_t i : refitted)
         round.candidates[i].log_odds = odds(accounts[i]) + prior[scores[i].candidate];
       best = weigh(round, refitted);
@@ -241,8 +238,8 @@ class Search {
   /// that has nothing to do with what it adds. True where the base got better by it.
   bool follow(const Account& better) {
     const double before = base_.fit.log_evidence + base_.heldout.log_evidence;
-    const JointFit again = fit(*base_.study, base_.shared, &errors_.covariance,
-                               errors_.corrections, &better.fit);
+    const JointFit again =
+        fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &better.fit);
     if (again.converged && again.log_evidence > base_.fit.log_evidence) base_.fit = again;
     if (heldout_study_ && better.heldout.converged) {
       const JointFit h = fit(*heldout_study_, {}, &heldout_errors_.covariance,
@@ -277,11 +274,13 @@ class Search {
   void accept(const Round& round, size_t best, Account account) {
     const Ranked& r = round.candidates[best];
     std::map<std::string, double> by_effect;
-    for (const Ranked& other : round.candidates) by_effect[other.candidate.effect] += other.probability;
+    for (const Ranked& other : round.candidates)
+      by_effect[other.candidate.effect] += other.probability;
     effects_.push_back(r.candidate);
     confidence_.push_back(by_effect[r.candidate.effect]);
     for (const Ranked& other : round.candidates)
-      if (other.refitted && other.candidate.effect != r.candidate.effect && other.probability > 0.01)
+      if (other.refitted && other.candidate.effect != r.candidate.effect &&
+          other.probability > 0.01)
         rivals_.push_back({other.candidate.effect, other.candidate.where, other.probability,
                            cosine(other.score.direction, r.score.direction)});
     tell(fmt::format("  {}: probability {:.3f}", r.candidate.label(), confidence_.back()));
@@ -293,8 +292,8 @@ class Search {
     base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &before,
                     {}, rough);
     if (refinement_)
-      refinement_ = std::make_unique<Refinement>(with_fitted(base_.description, base_.fit),
-                                                 *refinement_);
+      refinement_ =
+          std::make_unique<Refinement>(with_fitted(base_.description, base_.fit), *refinement_);
     fit_base();
     if (heldout_study_) {
       HeldoutFit h = fit_heldout(base_, evidence());
@@ -346,7 +345,8 @@ class Search {
       case Finding::none:
         return fmt::format("what is left is within noise (p = {:.2g})", d_.fit_tail);
       case Finding::unknown:
-        return fmt::format("a gap beyond noise (p = {:.1g}) that no candidate explains", d_.fit_tail);
+        return fmt::format("a gap beyond noise (p = {:.1g}) that no candidate explains",
+                           d_.fit_tail);
       case Finding::ambiguous:
         return "these data do not tell the candidates below apart";
       case Finding::named:

@@ -55,11 +55,11 @@ struct Discovery {
   std::vector<NamedEffect> effects;
   std::vector<Rival> alternatives;
   Gap before, after, heldout_before, heldout_after;
-  double noise = 0;         ///< [m]
-  double fit_tail = 1;      ///< probability of residuals as large as those left, nothing missing
-  ModelDescription model;   ///< patched
+  double noise = 0;        ///< [m]
+  double fit_tail = 1;     ///< probability of residuals as large as those left, nothing missing
+  ModelDescription model;  ///< patched
   std::vector<Round> rounds;
-  JointFit first, last;     ///< fits of the fitted conditions before and after
+  JointFit first, last;  ///< fits of the fitted conditions before and after
   JointFit heldout_first, heldout_last;
   ResidualMap map_before, map_after;  ///< of the fitted conditions
   HiddenForce hidden;                 ///< that would close the gap of the model as it was
@@ -71,9 +71,9 @@ struct DiscoverOptions {
   ModelDoubt doubt;
   /// Correct the shapes for the mesh's own error; false where the data are of the same mesh.
   bool correct_mesh = true;
-  int refits = 5;         ///< candidates refitted a round
-  int most_effects = 3;   ///< rounds
-  double certain = 0.9;   ///< probability of one effect that names it
+  int refits = 5;        ///< candidates refitted a round
+  int most_effects = 3;  ///< rounds
+  double certain = 0.9;  ///< probability of one effect that names it
   /// Largest probability of nothing with which a name is given. Small, as errors that go beyond the
   /// first order, and an effort that the speaker does not share, count as evidence too.
   double nothing = 1e-6;

@@ -30,9 +30,9 @@ std::vector<std::vector<std::pair<int, Vec3>>> nodal_gradients(const HexMesh& me
       const auto corner = [&](int b) -> const Vec3& { return mesh.nodes[size_t(e[size_t(b)])]; };
       const Mat3 inverse = hex8::jacobian(corner, local).inverse();
       for (size_t b = 0; b < 8; ++b)
-        result[size_t(e[a])].emplace_back(
-            e[b], inverse.transpose() * local.row(Eigen::Index(b)).transpose() /
-                      double(count[size_t(e[a])]));
+        result[size_t(e[a])].emplace_back(e[b], inverse.transpose() *
+                                                    local.row(Eigen::Index(b)).transpose() /
+                                                    double(count[size_t(e[a])]));
     }
   return result;
 }

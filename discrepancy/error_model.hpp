@@ -7,12 +7,12 @@ namespace genio {
 
 /// What is believed of a model that lacks nothing.
 struct ModelDoubt {
-  double fibre_turn = 5;        ///< mean angle between true and modelled fibres [deg]
-  double fibre_length = 8e-3;   ///< over which that angle stays alike [m]
-  double tissue_sd = 0.03;      ///< of the logarithm of the tissue's stiffness
-  double correction_sd = 0.25;  ///< of the mesh's own error, as a part of its correction
+  double fibre_turn = 5;           ///< mean angle between true and modelled fibres [deg]
+  double fibre_length = 8e-3;      ///< over which that angle stays alike [m]
+  double tissue_sd = 0.03;         ///< of the logarithm of the tissue's stiffness
+  double correction_sd = 0.25;     ///< of the mesh's own error, as a part of its correction
   double least_mesh_error = 3e-5;  ///< [m]
-  double local_error = 1e-4;  ///< of the mesh within an element, from point to point [m]
+  double local_error = 1e-4;       ///< of the mesh within an element, from point to point [m]
   double mesh_length = 0.012;      ///< of the rest of the mesh's error [m]
   /// How much larger than foreseen a chi-square of a model that lacks nothing tends to be, by what
   /// is not of first order. Set by `genio bench discover`.

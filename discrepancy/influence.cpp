@@ -9,8 +9,7 @@ Matrix influence(Study& study, const JointFit& fit, size_t k) {
   const auto& gradient = c.residuals.gradient;
   Matrix right = Matrix::Zero(c.x.size(), Eigen::Index(gradient.size()));
   for (size_t r = 0; r < gradient.size(); ++r)
-    for (const auto& [node, g] : gradient[r])
-      right.col(Eigen::Index(r)).segment<3>(3 * node) += g;
+    for (const auto& [node, g] : gradient[r]) right.col(Eigen::Index(r)).segment<3>(3 * node) += g;
   Equilibrium e;
   e.status = SolveStatus::converged, e.x = c.x, e.parameters = c.parameters;
   return sensitivity_to_forces(study.model(k), e, right, study.workspace(k)).transpose();

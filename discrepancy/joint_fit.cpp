@@ -13,8 +13,8 @@ namespace {
 
 constexpr double interval = 1.645;  // standard deviations of a 90 % interval
 constexpr int most_steps = 25;
-constexpr int starts_alone = 2;  // of a condition inverted by itself
-constexpr double on_bound = 1e-3;   // of an unknown
+constexpr int starts_alone = 2;    // of a condition inverted by itself
+constexpr double on_bound = 1e-3;  // of an unknown
 
 std::vector<Eigen::Index> open_unknowns(const Vector& lower, const Vector& upper) {
   std::vector<Eigen::Index> open;
@@ -33,8 +33,8 @@ Vector first_guess(Study& study, size_t k, JointProblem::Part& part) {
   if (study.condition(k).forces) return z;
   InferOptions options;
   options.bilateral = study.bilateral(k);
-  const Answer answer = infer_from_starts(study.model(k), study.condition(k).target,
-                                          study.prior(k), study.inferring(k), options, {starts_alone});
+  const Answer answer = infer_from_starts(study.model(k), study.condition(k).target, study.prior(k),
+                                          study.inferring(k), options, {starts_alone});
   if (answer.activations.size() == 0) return z;
   const auto alone = unknowns(study.model(k), study.prior(k), study.bilateral(k));
   const auto& commands = part.objective.commands();
@@ -82,7 +82,8 @@ void summarise_shared(JointFit& f, const Matrix& covariance,
     const Command& command = c.commands[i];
     SharedEstimate e{command.name, command.unit, c.z[Eigen::Index(i)] * command.scale};
     const auto at = std::find(open.begin(), open.end(), c.which[i]);
-    if (at != open.end()) e.sd = command.scale * std::sqrt(covariance(at - open.begin(), at - open.begin()));
+    if (at != open.end())
+      e.sd = command.scale * std::sqrt(covariance(at - open.begin(), at - open.begin()));
     const double low = command.lower * command.scale, high = command.upper * command.scale;
     e.low = std::max(low, e.value - interval * e.sd);
     e.high = std::min(high, e.value + interval * e.sd);
@@ -130,8 +131,7 @@ JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* 
     for (size_t i = 0; i < commands.size(); ++i)
       if (const auto p = shared.parameters.find(commands[i].name); p != shared.parameters.end())
         z[Eigen::Index(i)] = p->second.mean / commands[i].scale;
-      else if (commands[i].kind == Command::Kind::pose)
-        z[Eigen::Index(i)] = 0;
+      else if (commands[i].kind == Command::Kind::pose) z[Eigen::Index(i)] = 0;
     if (start) z = start_of(start->conditions[k], commands, shared_start, z);
     u(part.which) = z;
   }
@@ -167,8 +167,8 @@ JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* 
   BoxGaussian density{f.u(open), slope, h, f.lower(open), f.upper(open)};
   for (Eigen::Index i = 0; i < slope.size(); ++i)
     if (pressed(density, i) == 0) density.slope[i] = 0;
-  f.log_evidence =
-      -f.value + log_integral(density) - log_prior_mass(problem.prior_rows(), problem.prior_values(), f, open);
+  f.log_evidence = -f.value + log_integral(density) -
+                   log_prior_mass(problem.prior_rows(), problem.prior_values(), f, open);
   // Unknowns that a bound presses on do not move.
   std::vector<Eigen::Index> free, at;
   for (size_t i = 0; i < open.size(); ++i)

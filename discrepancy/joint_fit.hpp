@@ -20,7 +20,7 @@ struct FittedCondition {
   std::vector<Command> commands;  ///< its unknowns: muscles, shared parameters, head pose
   std::vector<int> which;         ///< where each stands among the joint unknowns
   Vector z;
-  Positions x;          ///< [m]
+  Positions x;  ///< [m]
   Parameters parameters;
   Residuals residuals;  ///< in units of the noise
   Matrix by_unknown;    ///< dx/dz (3 n x count)
@@ -38,12 +38,12 @@ struct JointFit {
   bool converged = false;
   std::string message;
   std::vector<FittedCondition> conditions;
-  Vector u, lower, upper;  ///< joint unknowns
-  Matrix prior_rows;       ///< A of the prior 1/2 |A u - b|^2
-  Vector prior_values;     ///< b
-  int own = 0;             ///< unknowns that belong to one condition; the shared ones follow
-  double value = 0;        ///< minus the log posterior, but for constants
-  double log_evidence = 0; ///< by Laplace's method about u
+  Vector u, lower, upper;   ///< joint unknowns
+  Matrix prior_rows;        ///< A of the prior 1/2 |A u - b|^2
+  Vector prior_values;      ///< b
+  int own = 0;              ///< unknowns that belong to one condition; the shared ones follow
+  double value = 0;         ///< minus the log posterior, but for constants
+  double log_evidence = 0;  ///< by Laplace's method about u
   std::vector<SharedEstimate> shared;
   int iterations = 0;
 

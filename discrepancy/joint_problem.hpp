@@ -17,8 +17,7 @@ class JointProblem final : public MisfitProblem {
           objective(study.model(k), comparison, prior, options, study.workspace(k)) {}
     /// Residuals of a point with the mesh's own error taken off.
     Vector residuals(const ObjectivePoint& point) const {
-      return correction.size() == 0 ? point.residuals.values
-                                    : point.residuals.values + correction;
+      return correction.size() == 0 ? point.residuals.values : point.residuals.values + correction;
     }
     Comparison comparison;
     Vector correction;  // empty: none
@@ -42,9 +41,7 @@ class JointProblem final : public MisfitProblem {
   Part& part(size_t k) { return *parts_[k]; }
   size_t size() const { return parts_.size(); }
   Vector of_part(const Vector& u, size_t k) const { return u(parts_[k]->which); }
-  double prior_value(const Vector& u) const {
-    return 0.5 * (rows_ * u - values_).squaredNorm();
-  }
+  double prior_value(const Vector& u) const { return 0.5 * (rows_ * u - values_).squaredNorm(); }
   const Matrix& prior_rows() const { return rows_; }
   const Vector& prior_values() const { return values_; }
   /// L^-1 m with L the covariance's factor.

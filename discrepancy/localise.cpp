@@ -79,8 +79,8 @@ std::vector<MapPatch> patches_of(const std::vector<MapPoint>& points) {
 
 }  // namespace
 
-ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& covariance,
-                     double rate, double reach) {
+ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& covariance, double rate,
+                     double reach) {
   ResidualMap map;
   map.false_discovery_rate = rate;
   const Vector r = fit.residuals();
@@ -95,8 +95,8 @@ ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& cova
     for (const auto& of : c.residuals.rows) {
       const double z = mean[row] / std::sqrt(std::max(1e-12, variance[row]));
       const Vec3 place = c.residuals.places[size_t(of.point)];
-      map.points.push_back({study.members()[k], place, r[row] / of.scale, z, false,
-                            place_name(line, c.x, place)});
+      map.points.push_back(
+          {study.members()[k], place, r[row] / of.scale, z, false, place_name(line, c.x, place)});
       p.push_back(std::erfc(std::abs(z) / std::numbers::sqrt2));
       ++row;
     }
@@ -148,12 +148,11 @@ HiddenForce hidden_force(const Study& study, const std::vector<Matrix>& influenc
   const double unit = s.mean() > 0 ? 1 / s.mean() : 0;
   for (double size = 1e-6 * unit; size < 1e6 * unit; size *= 1.5) {
     const Vector v = Vector::Ones(s.size()) + size * s;
-    const double gain = 0.5 * (u.squaredNorm() - (u.cwiseAbs2().cwiseQuotient(v)).sum() -
-                               v.array().log().sum());
+    const double gain =
+        0.5 * (u.squaredNorm() - (u.cwiseAbs2().cwiseQuotient(v)).sum() - v.array().log().sum());
     if (gain > result.log_evidence) result.log_evidence = gain, best = size;
   }
-  const Vector weights =
-      eigen.eigenvectors() * u.cwiseQuotient(Vector::Ones(s.size()) + best * s);
+  const Vector weights = eigen.eigenvectors() * u.cwiseQuotient(Vector::Ones(s.size()) + best * s);
   const Vector back = w.transpose() * weights;
   result.common = Forces::Zero(3 * n);
   first = 0;

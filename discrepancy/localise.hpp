@@ -39,18 +39,18 @@ ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& cova
 
 /// A force field that would close what gap the muscles leave.
 struct HiddenForce {
-  double log_evidence = 0;         ///< gain over no such field
-  std::vector<Forces> nodal;       ///< of each condition [N]
-  Forces common;                   ///< their mean [N]
-  Vec3 centre = Vec3::Zero();      ///< of the common field's magnitude, at rest [m]
-  Vec3 resultant = Vec3::Zero();   ///< of the common field [N]
-  double total = 0;                ///< sum of the common field's magnitudes [N]
+  double log_evidence = 0;        ///< gain over no such field
+  std::vector<Forces> nodal;      ///< of each condition [N]
+  Forces common;                  ///< their mean [N]
+  Vec3 centre = Vec3::Zero();     ///< of the common field's magnitude, at rest [m]
+  Vec3 resultant = Vec3::Zero();  ///< of the common field [N]
+  double total = 0;               ///< sum of the common field's magnitudes [N]
   std::string region;
 };
 
-/// The most likely body force field, a Gaussian field of length `length` [m] of which half is common
-/// to all conditions, its size by maximal evidence: the smallest that explains the residuals through
-/// the stiffness at hand (`influences`) after the free unknowns have done their best.
+/// The most likely body force field, a Gaussian field of length `length` [m] of which half is
+/// common to all conditions, its size by maximal evidence: the smallest that explains the residuals
+/// through the stiffness at hand (`influences`) after the free unknowns have done their best.
 HiddenForce hidden_force(const Study& study, const std::vector<Matrix>& influences,
                          const Projection& projection, double length = 0.012);
 

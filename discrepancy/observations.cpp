@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 const std::vector<std::string> condition_keys = {
     "name", "target", "frame", "forces_N", "force_sd_percent", "effects", "heldout"};
 const std::vector<std::string> file_keys = {
-    "noise_mm", "noise_correlation_mm", "force_sd_percent", "bilateral", "effort_sd",
-    "head_pose", "condition"};
+    "noise_mm", "noise_correlation_mm", "force_sd_percent", "bilateral", "effort_sd", "head_pose",
+    "condition"};
 
 double number_or(const TomlReader& file, const toml::table& in, const char* key, double fallback,
                  double least) {
@@ -64,8 +64,9 @@ Target read_target(const TomlReader& file, const toml::table& table, const Model
       (fs::path(file.path()).parent_path() / file.text(table, "target")).string();
   const ContourFile contours = read_contours(path);
   if (!contours.model_frame)
-    throw InputError(path + ": a target of an observations file must be in the model's frame; "
-                            "genio invert --out writes registered contours");
+    throw InputError(path +
+                     ": a target of an observations file must be in the model's frame; "
+                     "genio invert --out writes registered contours");
   const auto* node = table.get("frame");
   size_t index = 0;
   if (node) {
@@ -97,8 +98,7 @@ Condition read_condition(const TomlReader& file, const toml::node& node, const M
     c.forces = known_forces(file, file.table(table, "forces_N"), sd_percent, model);
   if (table.get("effects"))
     for (const auto& [key, value] : file.table(table, "effects")) {
-      const std::string where =
-          fmt::format("{}:{}", file.path(), value.source().begin.line);
+      const std::string where = fmt::format("{}:{}", file.path(), value.source().begin.line);
       c.effects[effect_parameter(std::string(key.str()), where)] =
           file.number(value, std::string(key.str()));
     }
@@ -120,9 +120,8 @@ std::string effect_parameter(const std::string& name, const std::string& source)
     throw InputError(fmt::format("{}: '{}' is no effect; did you mean {}?", source, effect,
                                  nearest_name(effect, names)));
   if (dot != std::string::npos) return name;
-  static const std::map<std::string, std::string> first = {{"jaw_opening", "angle"},
-                                                           {"gravity", "pitch"},
-                                                           {"airway_pressure", "pressure"}};
+  static const std::map<std::string, std::string> first = {
+      {"jaw_opening", "angle"}, {"gravity", "pitch"}, {"airway_pressure", "pressure"}};
   const auto known = first.find(effect);
   if (known == first.end())
     throw InputError(
@@ -156,9 +155,9 @@ Observations read_observations(const std::string& path, const Model& model) {
   if (root.get("head_pose")) {
     const toml::table& pose = file.table(root, "head_pose");
     file.only(pose, {"shift_sd_mm", "turn_sd_deg"});
-    o.head_pose = Prior::HeadPose{
-        1e-3 * number_or(file, pose, "shift_sd_mm", 1, 1e-3),
-        std::numbers::pi / 180 * number_or(file, pose, "turn_sd_deg", 1, 1e-3)};
+    o.head_pose =
+        Prior::HeadPose{1e-3 * number_or(file, pose, "shift_sd_mm", 1, 1e-3),
+                        std::numbers::pi / 180 * number_or(file, pose, "turn_sd_deg", 1, 1e-3)};
   }
   const double sd_percent = number_or(file, root, "force_sd_percent", 0, 0);
   const auto* list = root.get("condition");

@@ -26,7 +26,7 @@ struct Observations {
   double noise = 0;              ///< standard deviation of a point across the surface [m]
   double noise_correlation = 0;  ///< length along a contour [m]; 0: points err by themselves
   bool bilateral = true;         ///< unknown commands drive both sides alike
-  double effort_sd = Prior{}.effort_sd;     ///< of an unknown activation about 0
+  double effort_sd = Prior{}.effort_sd;      ///< of an unknown activation about 0
   std::optional<Prior::HeadPose> head_pose;  ///< of each condition, estimated along where set
   std::vector<Condition> conditions;
 

@@ -71,8 +71,7 @@ Refinement::Tongues::Tongues(const ModelDescription& d)
   if (mirror) node = nodes_of(fine.mesh, whole.mesh);
 }
 
-Vector Refinement::correction(const Model& fitted, const FittedCondition& c,
-                              size_t condition) {
+Vector Refinement::correction(const Model& fitted, const FittedCondition& c, size_t condition) {
   const Condition& seen = observations_.conditions[condition];
   auto& made = tongues_[seen.effects];
   if (!made) made = std::make_unique<Tongues>(under(description_, seen.effects));

@@ -17,9 +17,9 @@ class Refinement {
         observations_(before.observations_),
         latest_(before.latest_) {}
   /// For every condition of a fit: the residuals of the same problem on a mesh with every element
-  /// split in eight, less those of this mesh, in units of the noise; on half a tongue, with the mean
-  /// forces of both sides, where the tongue is symmetric. Parameters of the study's models that this
-  /// description has not are left out. Zero where the finer problem has no solution.
+  /// split in eight, less those of this mesh, in units of the noise; on half a tongue, with the
+  /// mean forces of both sides, where the tongue is symmetric. Parameters of the study's models
+  /// that this description has not are left out. Zero where the finer problem has no solution.
   Corrections corrections(const Study& study, const JointFit& fit);
 
  private:
@@ -27,9 +27,9 @@ class Refinement {
     explicit Tongues(const ModelDescription& description);
     Model coarse;
     std::unique_ptr<const Mirror> mirror;  ///< of the coarse tongue; null: not symmetric
-    Model fine;       ///< half a tongue where there is a mirror
-    Model whole;      ///< the whole fine tongue's geometry alone
-    std::vector<int> node;  ///< of `fine`, for each of `whole`
+    Model fine;                            ///< half a tongue where there is a mirror
+    Model whole;                           ///< the whole fine tongue's geometry alone
+    std::vector<int> node;                 ///< of `fine`, for each of `whole`
     Workspace coarse_workspace, fine_workspace;
   };
   Vector correction(const Model& fitted, const FittedCondition& fit, size_t condition);

@@ -188,9 +188,8 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     }
     result.push_back(std::move(s));
   }
-  std::stable_sort(result.begin(), result.end(), [](const Score& a, const Score& b) {
-    return a.log_evidence > b.log_evidence;
-  });
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Score& a, const Score& b) { return a.log_evidence > b.log_evidence; });
   return result;
 }
 

@@ -38,8 +38,8 @@ class Projection {
   double chi_square_ = 0, dof_ = 0;
 };
 
-/// d residuals / d strengths of a candidate at its vanishing value: stacked rows x strengths, a unit
-/// of its own each. `influences`: of each condition, see influence().
+/// d residuals / d strengths of a candidate at its vanishing value: stacked rows x strengths, a
+/// unit of its own each. `influences`: of each condition, see influence().
 Matrix signature(const Candidate& candidate, const Study& study, const JointFit& fit,
                  const std::vector<Matrix>& influences);
 

@@ -7,15 +7,15 @@ namespace genio {
 
 /// A fit under one account of the data: the model as it is, or with one candidate more.
 struct Account {
-  std::optional<Candidate> added;      ///< unset: nothing more
-  ModelDescription description;        ///< with it, at vanishing strength
-  SharedPrior shared;                  ///< its numbers and those of earlier effects
-  std::shared_ptr<Study> study;        ///< of the fitted conditions
+  std::optional<Candidate> added;  ///< unset: nothing more
+  ModelDescription description;    ///< with it, at vanishing strength
+  SharedPrior shared;              ///< its numbers and those of earlier effects
+  std::shared_ptr<Study> study;    ///< of the fitted conditions
   JointFit fit;
-  double chi_square = 0, dof = 0;      ///< of the residuals
-  JointFit heldout;                    ///< conditions held out, its parameters as fitted
-  double probability = 0;              ///< among all accounts that were tried
-  std::string message;                 ///< why it could not be fitted
+  double chi_square = 0, dof = 0;  ///< of the residuals
+  JointFit heldout;                ///< conditions held out, its parameters as fitted
+  double probability = 0;          ///< among all accounts that were tried
+  std::string message;             ///< why it could not be fitted
 
   bool fitted() const { return fit.converged; }
 };
@@ -35,8 +35,8 @@ struct Evidence {
   const JointFit* heldout_start;
 };
 
-/// The base account with one candidate more: its strengths shared by all conditions, from the score's
-/// estimate on; a switch at its typical strength.
+/// The base account with one candidate more: its strengths shared by all conditions, from the
+/// score's estimate on; a switch at its typical strength.
 Account refit(const Account& base, const Candidate& candidate, const Score& score,
               const Evidence& evidence);
 

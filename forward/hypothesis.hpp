@@ -17,11 +17,11 @@ struct FreeNumber {
 
 /// One way in which one effect may be what a model lacks.
 struct Hypothesis {
-  std::string effect;                 ///< "stiff_region"
-  std::string where;                  ///< "anterior", "STY_L"; empty where there is but one way
-  EffectTable table;                  ///< puts it into a model file at vanishing strength
-  std::vector<FreeNumber> strengths;  ///< let off their absent values
-  std::vector<FreeNumber> details;    ///< matter once a strength is off its absent value
+  std::string effect;                  ///< "stiff_region"
+  std::string where;                   ///< "anterior", "STY_L"; empty where there is but one way
+  EffectTable table;                   ///< puts it into a model file at vanishing strength
+  std::vector<FreeNumber> strengths;   ///< let off their absent values
+  std::vector<FreeNumber> details;     ///< matter once a strength is off its absent value
   std::shared_ptr<const Effect> made;  ///< from `table`
 
   /// "stiff_region (anterior)"

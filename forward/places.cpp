@@ -41,8 +41,7 @@ bool middle_of(const ModelDescription& d, std::initializer_list<Support> kinds, 
 double half_width(const ModelDescription& d, const Vec3& at) {
   double w = 0;
   for (const Vec3& x : d.mesh.nodes)
-    if (std::abs(x[0] - at[0]) < slice && x[2] > at[2] - 2 * slice)
-      w = std::max(w, std::abs(x[1]));
+    if (std::abs(x[0] - at[0]) < slice && x[2] > at[2] - 2 * slice) w = std::max(w, std::abs(x[1]));
   return w;
 }
 

@@ -53,9 +53,9 @@ struct ContourFile {
 };
 
 /// Reads CSV (`frame,point,x_mm,[y_mm,]z_mm[,sigma_mm][,kind][,label][,time_s]
-/// [,rest_x_mm,rest_y_mm,rest_z_mm][,slice]`, model frame), AAA tab-separated exports (Cartesian and
-/// polar), GetContours tables (long, wide, _EdgeTrak), EdgeTrak .con and other plain tables of x, y
-/// columns, EMA (AG500 and AG501 .pos, AG501 text, SSFF), and surfaces (PLY, OBJ, STL). Throws
+/// [,rest_x_mm,rest_y_mm,rest_z_mm][,slice]`, model frame), AAA tab-separated exports (Cartesian
+/// and polar), GetContours tables (long, wide, _EdgeTrak), EdgeTrak .con and other plain tables of
+/// x, y columns, EMA (AG500 and AG501 .pos, AG501 text, SSFF), and surfaces (PLY, OBJ, STL). Throws
 /// InputError naming file, line and field.
 ContourFile read_contours(const std::string& path, const ReadOptions& options = {});
 

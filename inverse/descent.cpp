@@ -90,8 +90,7 @@ DescentResult descend(MisfitProblem& problem, const Vector& start, const Descent
       local = std::move(next);
       result.u = u, result.value = *value;
       // The next promise is about what this one was wrong by.
-      if (std::abs(gain - promise) < options.tolerance)
-        return result.converged = true, result;
+      if (std::abs(gain - promise) < options.tolerance) return result.converged = true, result;
     } else if (trust < smallest_trust) {
       if (promise < worth_trying * options.tolerance) return result.converged = true, result;
       return failed(fmt::format("no step lowers the misfit{}{}",

@@ -40,8 +40,8 @@ struct DescentResult {
   Vector u;             ///< best point; empty where there is none
   double value = 0;
   std::shared_ptr<LocalModel> local;  ///< at u
-  int iterations = 0;                   ///< local problems
-  int solver_iterations = 0;            ///< Ipopt's in all of them
+  int iterations = 0;                 ///< local problems
+  int solver_iterations = 0;          ///< Ipopt's in all of them
 };
 
 /// Local problems one after another, each minimised by Ipopt within bounds and a trust region,

@@ -181,8 +181,8 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   answer.chi2_per_dof = test.chi2_per_dof, answer.verdict = test.verdict;
   Eigen::Index worst = 0;
   if (optimum.residuals.distances.size() > 0) optimum.residuals.distances.maxCoeff(&worst);
-  const std::string where =
-      tongue_region(comparison.line(), optimum.equilibrium.x, optimum.residuals.places[size_t(worst)]);
+  const std::string where = tongue_region(comparison.line(), optimum.equilibrium.x,
+                                          optimum.residuals.places[size_t(worst)]);
   answer.message =
       test.verdict == Verdict::explained
           ? fmt::format("misfit within noise (p = {:.2g})", test.tail)

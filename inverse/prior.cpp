@@ -88,13 +88,8 @@ std::vector<Command> unknowns(const Model& model, const Prior& prior, bool bilat
     // Bounds may be far beyond what is believed; the unit is what may be reached.
     const double reach = std::min(std::max(std::abs(info.lower), std::abs(info.upper)),
                                   std::abs(belief.mean) + pose_range * belief.sd);
-    result.push_back({name,
-                      reach,
-                      which,
-                      std::vector<double>(which.size(), 1.0),
-                      Command::Kind::parameter,
-                      info.unit,
-                      std::max(-1.0, info.lower / reach),
+    result.push_back({name, reach, which, std::vector<double>(which.size(), 1.0),
+                      Command::Kind::parameter, info.unit, std::max(-1.0, info.lower / reach),
                       std::min(1.0, info.upper / reach)});
   }
   if (prior.head_pose) {

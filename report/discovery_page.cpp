@@ -10,8 +10,8 @@
 namespace genio {
 namespace {
 
-constexpr double panel = 250, gap = 20;       // [px]
-constexpr double full_colour = 2e-3;          // [m]
+constexpr double panel = 250, gap = 20;  // [px]
+constexpr double full_colour = 2e-3;     // [m]
 
 std::string colour(double distance) {
   const double t = std::clamp(std::abs(distance) / full_colour, 0.0, 1.0);
@@ -65,16 +65,18 @@ std::string effects_part(const Discovery& d) {
                      html_text(labelled(e.effect, e.where)), e.confidence);
     s += "<tr><th>parameter</th><th>value</th><th>sd</th><th>90 % interval</th><th>unit</th></tr>";
     for (const SharedEstimate& p : e.parameters)
-      s += fmt::format("<tr><td>{}</td><td>{:.4g}</td><td>{:.2g}</td><td>{:.4g} to {:.4g}</td>"
-                       "<td>{}</td></tr>\n",
-                       html_text(p.name), p.value, p.sd, p.low, p.high, html_text(p.unit));
+      s += fmt::format(
+          "<tr><td>{}</td><td>{:.4g}</td><td>{:.2g}</td><td>{:.4g} to {:.4g}</td>"
+          "<td>{}</td></tr>\n",
+          html_text(p.name), p.value, p.sd, p.low, p.high, html_text(p.unit));
     s += "</table>\n";
   }
   if (d.effects.empty()) s += "<p>No effect is named.</p>\n";
   for (const Rival& r : d.alternatives)
-    s += fmt::format("<p>Or {}: probability {:.3f}; its signature is like the first one's by "
-                     "{:.2f}.</p>\n",
-                     html_text(labelled(r.effect, r.where)), r.probability, r.similarity);
+    s += fmt::format(
+        "<p>Or {}: probability {:.3f}; its signature is like the first one's by "
+        "{:.2f}.</p>\n",
+        html_text(labelled(r.effect, r.where)), r.probability, r.similarity);
   return s;
 }
 
@@ -83,7 +85,8 @@ std::string patches_part(const Discovery& d, const Observations& o) {
   if (patches.empty())
     return fmt::format("<p>No place lies beyond noise (false-discovery rate {} %).</p>\n",
                        100 * d.map_before.false_discovery_rate);
-  std::string s = "<table><tr><th>condition</th><th>place</th><th>points</th><th>data lie</th></tr>";
+  std::string s =
+      "<table><tr><th>condition</th><th>place</th><th>points</th><th>data lie</th></tr>";
   for (size_t i = 0; i < std::min<size_t>(patches.size(), 12); ++i)
     s += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f} mm {}</td></tr>\n",
                      html_text(o.conditions[patches[i].condition].name), patches[i].region,
@@ -113,7 +116,8 @@ std::string draw_ranking(const Round& round, size_t most) {
   for (const Ranked& r : round.candidates)
     if (r.score.visible && shown.size() < most) shown.push_back(&r);
   double low = 0, high = 1;
-  for (const Ranked* r : shown) low = std::min(low, r->log_odds), high = std::max(high, r->log_odds);
+  for (const Ranked* r : shown)
+    low = std::min(low, r->log_odds), high = std::max(high, r->log_odds);
   constexpr double row = 22, left = 250, width = 380;
   Svg svg(left + width + 80, row * double(shown.size()) + 20);
   const auto x = [&](double v) { return left + (v - low) / (high - low) * width; };
@@ -146,13 +150,15 @@ std::string discovery_page(const Discovery& d, const Observations& o, const std:
         1e3 * d.hidden.centre[2], d.hidden.resultant[0], d.hidden.resultant[1],
         d.hidden.resultant[2], d.hidden.log_evidence);
   s += "<h2>What</h2>\n" + effects_part(d);
-  s += "<h2>How sure</h2>\n<p>Log odds against nothing being missing; dark: refitted in full, pale: "
-       "by the score alone.</p>\n";
+  s +=
+      "<h2>How sure</h2>\n<p>Log odds against nothing being missing; dark: refitted in full, pale: "
+      "by the score alone.</p>\n";
   for (size_t i = 0; i < d.rounds.size(); ++i)
-    s += fmt::format("<h3>Effect {}</h3>\n<p>Chi-square {:.0f} of {:.0f} degrees of freedom before; "
-                     "probability that nothing (more) is missing {:.2g}.</p>\n{}",
-                     i + 1, d.rounds[i].chi_square, d.rounds[i].dof, d.rounds[i].nothing,
-                     draw_ranking(d.rounds[i], 14));
+    s += fmt::format(
+        "<h3>Effect {}</h3>\n<p>Chi-square {:.0f} of {:.0f} degrees of freedom before; "
+        "probability that nothing (more) is missing {:.2g}.</p>\n{}",
+        i + 1, d.rounds[i].chi_square, d.rounds[i].dof, d.rounds[i].nothing,
+        draw_ranking(d.rounds[i], 14));
   s += fmt::format(
       "<h2>What changed</h2>\n<table><tr><th>gap, RMS</th><th>before [mm]</th><th>after [mm]</th>"
       "<th>before / noise</th><th>after / noise</th></tr>\n{}{}</table>\n<p>Noise {:.2f} mm; what "

@@ -7,8 +7,8 @@
 
 namespace genio {
 
-/// Signed residual maps of the fitted conditions before and after, side by side, seen from the left:
-/// an SVG. Red: the data lie outside the model; blue: inside; ringed: beyond noise.
+/// Signed residual maps of the fitted conditions before and after, side by side, seen from the
+/// left: an SVG. Red: the data lie outside the model; blue: inside; ringed: beyond noise.
 std::string draw_maps(const Discovery& discovery, const Observations& observations);
 
 /// Log odds of the candidates that were scored best, as bars: an SVG.

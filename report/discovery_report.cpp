@@ -11,8 +11,8 @@ Json effect_json(const NamedEffect& e) {
     const std::string key = p.name.substr(p.name.find('.') + 1);
     parameters[key] = p.value, sd[key] = p.sd, interval[key] = {p.low, p.high};
   }
-  return {{"name", e.effect},   {"where", e.where},          {"parameters", parameters},
-          {"sd", sd},           {"interval90", interval},    {"confidence", e.confidence}};
+  return {{"name", e.effect}, {"where", e.where},       {"parameters", parameters},
+          {"sd", sd},         {"interval90", interval}, {"confidence", e.confidence}};
 }
 
 Json triple(const Vec3& v) { return {v[0], v[1], v[2]}; }

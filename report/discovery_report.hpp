@@ -7,8 +7,8 @@
 
 namespace genio {
 
-/// One object with the keys of the interface and the whole ranking. `model`: where the patched model
-/// was written; empty: none.
+/// One object with the keys of the interface and the whole ranking. `model`: where the patched
+/// model was written; empty: none.
 nlohmann::json to_json(const Discovery& discovery, const std::string& model);
 
 }  // namespace genio

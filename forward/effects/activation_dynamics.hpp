@@ -13,7 +13,7 @@ class ActivationDynamics final : public Effect {
  public:
   ActivationDynamics(double rise, double fall)
       : info_{{{"rise", "s", rise, 0, 1, 0, false, false, 0.015},
-              {"fall", "s", fall, 0, 1, 0, false, false, 0.05}}} {}
+               {"fall", "s", fall, 0, 1, 0, false, false, 0.05}}} {}
 
   std::string_view name() const override { return "activation_dynamics"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }

@@ -10,7 +10,8 @@ namespace genio {
 class Compressibility final : public TissueEffect {
  public:
   Compressibility(const HexMesh& mesh, double compliance)
-      : TissueEffect(mesh), info_{{{"compliance", "1/Pa", compliance, 0, 1e-2, 0, false, false, 5e-5}}} {}
+      : TissueEffect(mesh),
+        info_{{{"compliance", "1/Pa", compliance, 0, 1e-2, 0, false, false, 5e-5}}} {}
 
   std::string_view name() const override { return "compressibility"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }

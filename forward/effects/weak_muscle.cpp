@@ -18,8 +18,7 @@ std::vector<Strength> WeakMuscle::strengths() const {
     result.push_back({muscles_[k].name, {{int(k)}}});
     const std::string both = bilateral_name(muscles_[k].name);
     for (size_t j = 0; j < k; ++j)
-      if (bilateral_name(muscles_[j].name) == both)
-        result.push_back({both, {{int(j), int(k)}}});
+      if (bilateral_name(muscles_[j].name) == both) result.push_back({both, {{int(j), int(k)}}});
   }
   return result;
 }

@@ -12,10 +12,9 @@
 namespace genio {
 namespace {
 
-const std::vector<std::string> known_columns = {"frame",  "point",     "x_mm",      "y_mm",
-                                                "z_mm",   "sigma_mm",  "kind",      "label",
-                                                "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm",
-                                                "slice"};
+const std::vector<std::string> known_columns = {
+    "frame", "point",  "x_mm",      "y_mm",      "z_mm",      "sigma_mm", "kind",
+    "label", "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm", "slice"};
 
 }  // namespace
 

@@ -73,17 +73,19 @@ TEST_F(ObservationsFile, ErrorsNameFileLineAndField) {
   expect_says("noise_mm = 0.4\n[[condition]]\nname = \"a\"\ntarget = " + shape +
                   "\neffects = { jaw = 1 }\n",
               {":5", "jaw", "did you mean"});
-  expect_says("noise_mm = 0.4\n[[condition]]\nname = \"a\"\ntarget = " + shape +
-                  "\nheldout = true\n",
-              {"every condition is held out"});
+  expect_says(
+      "noise_mm = 0.4\n[[condition]]\nname = \"a\"\ntarget = " + shape + "\nheldout = true\n",
+      {"every condition is held out"});
   expect_says("noise_mm = -1\n", {":1:", "noise_mm"});
 }
 
 TEST_F(ObservationsFile, KnownForcesAndEffectsAreRead) {
   const std::string path = testing::TempDir() + "good.toml";
   std::ofstream(path) << "noise_mm = 0.4\nforce_sd_percent = 10\n[[condition]]\nname = \"a\"\n"
-                         "target = " + shape + "\nforces_N = { GGP = 2.0 }\n"
-                         "effects = { jaw_opening = 4.0 }\n";
+                         "target = " +
+                             shape +
+                             "\nforces_N = { GGP = 2.0 }\n"
+                             "effects = { jaw_opening = 4.0 }\n";
   const Observations o = read_observations(path, m);
   ASSERT_EQ(o.conditions.size(), 1u);
   const auto& forces = *o.conditions[0].forces;

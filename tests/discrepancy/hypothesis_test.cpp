@@ -68,7 +68,8 @@ TEST_F(Hypotheses, ArePlacedWhereThereIsTissue) {
       places.insert(h.where);
       double nearest = 1;
       for (const Vec3& x : bare.mesh.nodes)
-        nearest = std::min(nearest, (x - Vec3(h.table.at("x"), h.table.at("y"), h.table.at("z"))).norm());
+        nearest =
+            std::min(nearest, (x - Vec3(h.table.at("x"), h.table.at("y"), h.table.at("z"))).norm());
       EXPECT_LT(nearest, 6e-3) << h.where;
     }
   EXPECT_EQ(places, (std::set<std::string>{"anterior", "left", "middle", "posterior", "right"}));

@@ -37,8 +37,8 @@ class Scores : public test::PosedTongue {
 TEST_F(Scores, SignatureIsTheDerivativeOfTheResiduals) {
   look_at(tongue);
   for (const char* name : {"gravity", "jaw_opening", "airway_pressure", "force_length"}) {
-    const auto c = std::find_if(all.begin(), all.end(),
-                                [&](const Candidate& k) { return k.effect == name; });
+    const auto c =
+        std::find_if(all.begin(), all.end(), [&](const Candidate& k) { return k.effect == name; });
     ASSERT_NE(c, all.end());
     const Matrix exact = signature(*c, *study, f, influences);
     // The first strength a little off its absent value, forces as they are.
@@ -52,12 +52,14 @@ TEST_F(Scores, SignatureIsTheDerivativeOfTheResiduals) {
     const FittedCondition& fitted = f.conditions[0];
     for (size_t k = 0; k < study->model(0).parameters.size(); ++k) {
       const std::string& key = study->model(0).parameters[k].name;
-      if (!key.starts_with(c->effect)) p[parameter_index(m, key)] = fitted.parameters[Eigen::Index(k)];
+      if (!key.starts_with(c->effect))
+        p[parameter_index(m, key)] = fitted.parameters[Eigen::Index(k)];
     }
     const auto e = solve_equilibrium(m, p, fitted.x, ws);
     ASSERT_TRUE(e) << e.message;
-    const Vector change = (Comparison(m, observations.conditions[0].target)(e.x).values -
-                           fitted.residuals.values) / h;
+    const Vector change =
+        (Comparison(m, observations.conditions[0].target)(e.x).values - fitted.residuals.values) /
+        h;
     const Vector told = exact.col(0).head(change.size());
     EXPECT_LT((change - told).norm(), 0.03 * told.norm()) << name;
   }
@@ -89,7 +91,10 @@ TEST_F(Scores, ProjectionTakesAwayWhatTheUnknownsCanDo) {
   EXPECT_LE(p.norm(), Matrix(covariance.matrixL().solve(f.jacobian())).norm());
   EXPECT_LE(r.colwise().norm().maxCoeff(),
             Matrix(covariance.matrixL().solve(Matrix::Identity(r.cols(), r.cols())))
-                    .colwise().norm().maxCoeff() * (1 + 1e-9));
+                    .colwise()
+                    .norm()
+                    .maxCoeff() *
+                (1 + 1e-9));
   EXPECT_GT(projection.dof(), 0);
   EXPECT_LT(projection.dof(), double(f.residuals().size()));
 }
