@@ -41,17 +41,6 @@ std::string labelled(const std::string& effect, const std::string& where) {
   return where.empty() ? effect : effect + " (" + where + ")";
 }
 
-std::string html_text(const std::string& s) {
-  std::string out;
-  for (char c : s) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else out += c;
-  }
-  return out;
-}
-
 std::string gap_row(const char* what, const Gap& before, const Gap& after, double noise) {
   return fmt::format(
       "<tr><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n", what,
@@ -62,13 +51,13 @@ std::string effects_part(const Discovery& d) {
   std::string s;
   for (const NamedEffect& e : d.effects) {
     s += fmt::format("<h3>{}</h3><p>Probability among all accounts tried: {:.3f}.</p>\n<table>",
-                     html_text(labelled(e.effect, e.where)), e.confidence);
+                     escaped(labelled(e.effect, e.where)), e.confidence);
     s += "<tr><th>parameter</th><th>value</th><th>sd</th><th>90 % interval</th><th>unit</th></tr>";
     for (const SharedEstimate& p : e.parameters)
       s += fmt::format(
           "<tr><td>{}</td><td>{:.4g}</td><td>{:.2g}</td><td>{:.4g} to {:.4g}</td>"
           "<td>{}</td></tr>\n",
-          html_text(p.name), p.value, p.sd, p.low, p.high, html_text(p.unit));
+          escaped(p.name), p.value, p.sd, p.low, p.high, escaped(p.unit));
     s += "</table>\n";
   }
   if (d.effects.empty()) s += "<p>No effect is named.</p>\n";
@@ -76,7 +65,7 @@ std::string effects_part(const Discovery& d) {
     s += fmt::format(
         "<p>Or {}: probability {:.3f}; its signature is like the first one's by "
         "{:.2f}.</p>\n",
-        html_text(labelled(r.effect, r.where)), r.probability, r.similarity);
+        escaped(labelled(r.effect, r.where)), r.probability, r.similarity);
   return s;
 }
 
@@ -89,7 +78,7 @@ std::string patches_part(const Discovery& d, const Observations& o) {
       "<table><tr><th>condition</th><th>place</th><th>points</th><th>data lie</th></tr>";
   for (size_t i = 0; i < std::min<size_t>(patches.size(), 12); ++i)
     s += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.2f} mm {}</td></tr>\n",
-                     html_text(o.conditions[patches[i].condition].name), patches[i].region,
+                     escaped(o.conditions[patches[i].condition].name), patches[i].region,
                      patches[i].points, 1e3 * std::abs(patches[i].mean),
                      patches[i].mean > 0 ? "outside" : "inside");
   return s + "</table>\n";
@@ -139,7 +128,7 @@ std::string discovery_page(const Discovery& d, const Observations& o, const std:
       "table{{border-collapse:collapse}}td,th{{border:1px solid #ccc;padding:.3em .7em;"
       "text-align:left}}svg{{max-width:100%;height:auto}}</style></head><body>\n<h1>{0}</h1>\n"
       "<p><b>{1}</b>: {2}.</p>\n",
-      html_text(title), to_string(d.finding), html_text(d.message));
+      escaped(title), to_string(d.finding), escaped(d.message));
   s += "<h2>Where</h2>\n" + patches_part(d, o);
   if (d.hidden.log_evidence > 0)
     s += fmt::format(

@@ -13,6 +13,13 @@
 namespace genio {
 namespace {
 
+std::string attributes(const Style& s) {
+  return fmt::format("stroke=\"{}\" fill=\"{}\" stroke-width=\"{}\"{}", s.stroke, s.fill, s.width,
+                     s.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", s.dash));
+}
+
+}  // namespace
+
 std::string escaped(const std::string& s) {
   std::string out;
   for (char c : s) {
@@ -23,13 +30,6 @@ std::string escaped(const std::string& s) {
   }
   return out;
 }
-
-std::string attributes(const Style& s) {
-  return fmt::format("stroke=\"{}\" fill=\"{}\" stroke-width=\"{}\"{}", s.stroke, s.fill, s.width,
-                     s.dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", s.dash));
-}
-
-}  // namespace
 
 Svg::Svg(double width, double height) : width_(width), height_(height) {
   rect(0, 0, width, height, {"none", "white"});

@@ -38,6 +38,9 @@ class Svg {
   std::string body_;
 };
 
+/// Text for SVG and HTML: &, < and > as entities.
+std::string escaped(const std::string& text);
+
 /// Renders SVG text to a PNG file at `scale` times its size. Throws std::runtime_error.
 void write_png(const std::string& path, const std::string& svg, double scale);
 
