@@ -30,21 +30,14 @@ constexpr int line_points = 32, across_points = 20, scattered_points = 90;
 
 using Forces_N = std::map<std::string, double>;  // of both sides together
 
-std::vector<Forces_N> postures(const ModelDescription& d, int count, std::mt19937& random) {
+std::vector<Forces_N> postures(const std::vector<Command>& muscles, int count,
+                               std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<std::pair<std::string, double>> muscles;
-  for (const Muscle& m : d.muscles) {
-    const std::string both = bilateral_name(m.name);
-    const auto at = std::find_if(muscles.begin(), muscles.end(),
-                                 [&](const auto& k) { return k.first == both; });
-    if (at == muscles.end()) muscles.emplace_back(both, m.max_force);
-    else at->second += m.max_force;
-  }
   std::vector<Forces_N> result;
   for (int k = 0; k < count; ++k) {
     Forces_N f;
     for (int i : some_muscles(muscles.size(), random, uniform))
-      f[muscles[size_t(i)].first] = largest * uniform(random) * muscles[size_t(i)].second;
+      f[muscles[size_t(i)].name] = largest * uniform(random) * muscles[size_t(i)].scale;
     result.push_back(std::move(f));
   }
   return result;
@@ -196,9 +189,7 @@ Equilibrium fine_shape(const Model& fine, const Model& coarse, const Forces_N& f
   const Equilibrium rough =
       solve_equilibrium(coarse, commanded(coarse, forces, half), coarse.rest, ws_coarse);
   if (!rough) return rough;
-  HexMesh moved = coarse.mesh;
-  for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(rough.x, int(a));
-  const Positions start = rest_positions(refined(moved, coarse.description->supports).mesh);
+  const Positions start = prolonged(coarse.mesh, coarse.description->supports, rough.x);
   SolveOptions options;
   options.tolerance = 1e-7;
   return solve_equilibrium(fine, commanded(fine, forces, half), start, ws, options);
@@ -218,7 +209,8 @@ void write_target(const std::string& path, const std::vector<Measured>& points) 
 Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
                       const std::string& folder, const std::string& answer) {
   std::mt19937 random(what.seed);
-  const auto all = postures(tongue, what.fitted + what.heldout, random);
+  const auto all = postures(muscle_commands(build_model(tongue, tongue.name), true),
+                            what.fitted + what.heldout, random);
   const std::vector<Forces_N> fitted(all.begin(), all.begin() + what.fitted);
   const auto failed = [&](const std::string& why) {
     const Json j = {{"case", what.name}, {"failed", why}};

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "cli/commands.hpp"
+#include "discrepancy/discover.hpp"
 #include "report/discovery_page.hpp"
 #include "report/discovery_report.hpp"
 #include "report/svg.hpp"
@@ -22,15 +23,14 @@ struct Options {
 void print_table(const Discovery& d) {
   fmt::print("{}: {}\n", to_string(d.finding), d.message);
   for (const NamedEffect& e : d.effects) {
-    fmt::print("  {}{}  probability {:.3f}\n", e.effect,
-               e.where.empty() ? "" : " (" + e.where + ")", e.confidence);
+    fmt::print("  {}  probability {:.3f}\n", label(e.effect, e.where), e.confidence);
     for (const SharedEstimate& p : e.parameters)
       fmt::print("    {} = {:.4g} {}  (90 %: {:.4g} to {:.4g})\n", p.name, p.value, p.unit, p.low,
                  p.high);
   }
   for (const Rival& r : d.alternatives)
-    fmt::print("  or {}{}  probability {:.3f}, signature alike {:.2f}\n", r.effect,
-               r.where.empty() ? "" : " (" + r.where + ")", r.probability, r.similarity);
+    fmt::print("  or {}  probability {:.3f}, signature alike {:.2f}\n", label(r.effect, r.where),
+               r.probability, r.similarity);
   fmt::print("gap {:.2f} -> {:.2f} mm; held out {:.2f} -> {:.2f} mm; noise {:.2f} mm\n",
              1e3 * d.before.rms, 1e3 * d.after.rms, 1e3 * d.heldout_before.rms,
              1e3 * d.heldout_after.rms, 1e3 * d.noise);
@@ -69,7 +69,7 @@ Runner add_discover(CLI::App& app) {
   app.add_option("--model", o->model, "Model folder or model.toml");
   app.add_option("--observations", o->observations, "TOML file of conditions")->required();
   app.add_option("--out", o->out, "Folder for the patched model and the report");
-  app.add_option("--seed", o->seed, "Of what is drawn at random");
+  app.add_option("--seed", o->seed, "Of what is drawn at random: nothing so far");
   app.add_option("--refits", o->refits, "Candidates refitted a round (5)")
       ->check(CLI::Range(1, 100));
   app.add_option("--effects", o->effects, "Effects looked for, one after another (3)")

@@ -1,10 +1,12 @@
 #pragma once
 // One line a frame, on disk as soon as it is known.
 
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+
+#include "cli/json_lines.hpp"
 
 namespace genio::cli {
 
@@ -18,12 +20,11 @@ class ResultLog {
 
   /// Frames answered by the run that is taken up.
   const std::map<int, nlohmann::json>& known() const { return known_; }
-  void add(const nlohmann::json& answer);
+  void add(const nlohmann::json& answer) { lines_->add(answer); }
 
  private:
-  std::string path_;
   std::map<int, nlohmann::json> known_;
-  std::ofstream out_;
+  std::optional<JsonLines> lines_;  // once it is known whether it may be taken up
 };
 
 }  // namespace genio::cli

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
 
+#include "discrepancy/errors.hpp"
 #include "discrepancy/influence.hpp"
-#include "discrepancy/refinement.hpp"
+#include "discrepancy/selection.hpp"
+#include "discrepancy/weighing.hpp"
 #include "inverse/posterior.hpp"
 
 namespace genio {
@@ -21,83 +22,6 @@ constexpr double rough = 1, fine = 0.03;  // precision of fits, of the log poste
 
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Residuals of one set of conditions with all that is believed of their errors.
-struct Errors {
-  Corrections corrections;
-  Matrix matrix;  ///< the covariance
-  Eigen::LLT<Matrix> covariance;
-  std::vector<Matrix> influences;
-};
-
-std::vector<Matrix> influences_of(Study& study, const JointFit& fit) {
-  std::vector<Matrix> result;
-  for (size_t k = 0; k < study.size(); ++k) result.push_back(influence(study, fit, k));
-  return result;
-}
-
-/// Errors at a fit; the mesh's own are found anew.
-Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
-                 const ModelDoubt& doubt) {
-  Errors e;
-  if (refinement) e.corrections = refinement->corrections(study, fit);
-  e.influences = influences_of(study, fit);
-  e.matrix = residual_covariance(study, fit, e.influences, e.corrections, doubt);
-  e.covariance.compute(e.matrix);
-  return e;
-}
-
-Gap gap_of(const JointFit& fit, double noise) {
-  Gap g;
-  const Vector r = fit.residuals();
-  if (r.size() == 0) return g;
-  double square = 0;
-  Eigen::Index at = 0;
-  for (const auto& c : fit.conditions)
-    for (const auto& row : c.residuals.rows) square += std::pow(r[at++] / row.scale, 2);
-  g.rms = std::sqrt(square / double(r.size()));
-  g.excess = std::sqrt(std::max(0.0, g.rms * g.rms - noise * noise));
-  return g;
-}
-
-std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>& found,
-                               const std::vector<double>& confidence) {
-  std::vector<NamedEffect> result;
-  for (size_t i = 0; i < found.size(); ++i) {
-    NamedEffect n{found[i].effect, found[i].where, {}, confidence[i]};
-    for (const SharedEstimate& e : fit.shared) {
-      if (e.name.substr(0, e.name.find('.')) != found[i].effect) continue;
-      const std::string key = e.name.substr(e.name.find('.') + 1);
-      const bool other = found[i].effect == "weak_muscle" && key != found[i].where;
-      if (!other) n.parameters.push_back(e);
-    }
-    if (found[i].hypothesis && found[i].hypothesis->is_switch())
-      for (const FreeNumber& s : found[i].strengths)
-        n.parameters.push_back({found[i].effect + "." + s.name, s.info.unit,
-                                s.info.absent + s.info.typical, 0, 0, s.info.upper, false});
-    result.push_back(std::move(n));
-  }
-  return result;
-}
-
-/// The most likely candidates, at most two of one effect, that are worth a refit.
-std::vector<size_t> worth_a_refit(const std::vector<Candidate>& all,
-                                  const std::vector<Score>& scores,
-                                  const std::vector<double>& prior, int most) {
-  std::vector<size_t> order(scores.size()), result;
-  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto odds = [&](size_t i) { return scores[i].log_evidence + prior[scores[i].candidate]; };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return odds(a) > odds(b); });
-  std::map<std::string, int> count;
-  for (size_t i : order) {
-    if (int(result.size()) >= most || !scores[i].visible) break;
-    // A straight line underrates effects that grow faster, but not by everything.
-    if (odds(i) < 0.2 * odds(order.front()) - 5 || scores[i].log_evidence <= 0) break;
-    if (++count[all[scores[i].candidate].effect] <= 2) result.push_back(i);
-  }
-  return result;
 }
 
 double cosine(const Vector& a, const Vector& b) {
@@ -143,20 +67,18 @@ class Search {
     fit_base(rough), fit_base();
     if (!heldout.empty()) {
       heldout_study_ = std::make_shared<Study>(base_.description, observations_, heldout);
-      heldout_fit_ = fit(*heldout_study_, {}, nullptr, {}, nullptr, {}, rough);
-      if (heldout_fit_.conditions.size() != heldout.size())
+      base_.heldout = fit(*heldout_study_, {}, nullptr, {}, nullptr, {}, rough);
+      if (base_.heldout.conditions.size() != heldout.size())
         throw InputError("the model does not reach the conditions held out: " +
-                         heldout_fit_.message);
+                         base_.heldout.message);
       for (int times = 0; times < 2; ++times) {
         heldout_errors_ =
-            errors_at(*heldout_study_, heldout_fit_, refinement_.get(), options_.doubt);
-        heldout_fit_ = fit(*heldout_study_, {}, &heldout_errors_.covariance,
-                           heldout_errors_.corrections, &heldout_fit_);
+            errors_at(*heldout_study_, base_.heldout, refinement_.get(), options_.doubt);
+        base_.heldout = fit(*heldout_study_, {}, &heldout_errors_.covariance,
+                            heldout_errors_.corrections, &base_.heldout);
       }
     }
-    d_.first = base_.fit, d_.heldout_first = heldout_fit_;
-    d_.before = gap_of(base_.fit, d_.noise), d_.heldout_before = gap_of(heldout_fit_, d_.noise);
-    base_.heldout = heldout_fit_;
+    d_.before = gap_of(base_.fit, d_.noise), d_.heldout_before = gap_of(base_.heldout, d_.noise);
     tell(fmt::format("gap {:.2f} mm ({:.2f} mm held out), noise {:.2f} mm", 1e3 * d_.before.rms,
                      1e3 * d_.heldout_before.rms, 1e3 * d_.noise));
   }
@@ -176,7 +98,7 @@ class Search {
             errors_.corrections,
             heldout_study_ ? &heldout_errors_.covariance : nullptr,
             heldout_errors_.corrections,
-            heldout_study_ ? &heldout_fit_ : nullptr};
+            heldout_study_ ? &base_.heldout : nullptr};
   }
 
   /// Scores, refits and weighs; false when nothing more is to be named.
@@ -244,31 +166,11 @@ class Search {
     if (heldout_study_ && better.heldout.converged) {
       const JointFit h = fit(*heldout_study_, {}, &heldout_errors_.covariance,
                              heldout_errors_.corrections, &better.heldout);
-      if (h.converged && h.log_evidence > base_.heldout.log_evidence)
-        base_.heldout = heldout_fit_ = h;
+      if (h.converged && h.log_evidence > base_.heldout.log_evidence) base_.heldout = h;
     }
     const double gain = base_.fit.log_evidence + base_.heldout.log_evidence - before;
     if (gain > 0) tell(fmt::format("  the model as it is does better from there: {:+.1f}", gain));
     return gain > 0;
-  }
-
-  /// Probabilities of all accounts: refitted ones by their evidence, the others by their scores,
-  /// which count less where a refit could tell. Returns the best refitted one.
-  static size_t weigh(Round& round, const std::vector<size_t>& refitted) {
-    const double log_nothing = std::log(0.5);
-    double most = log_nothing;
-    for (size_t i : refitted) most = std::max(most, round.candidates[i].log_odds);
-    double sum = std::exp(log_nothing - most);
-    for (size_t i : refitted) sum += std::exp(round.candidates[i].log_odds - most);
-    round.nothing = std::exp(log_nothing - most) / sum;
-    size_t best = 0;
-    double highest = -1;
-    for (size_t i : refitted) {
-      Ranked& r = round.candidates[i];
-      r.probability = std::exp(r.log_odds - most) / sum;
-      if (r.probability > highest) highest = r.probability, best = i;
-    }
-    return best;
   }
 
   void accept(const Round& round, size_t best, Account account) {
@@ -286,33 +188,29 @@ class Search {
     tell(fmt::format("  {}: probability {:.3f}", r.candidate.label(), confidence_.back()));
     // The next round's unknown supports need their derivatives too.
     base_.description = account.description, base_.shared = account.shared;
-    const JointFit before = account.fit;
     base_.study = std::make_shared<Study>(with_mobile_supports(base_.description), observations_,
                                           fitted_conditions(observations_));
-    base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &before,
-                    {}, rough);
+    base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections,
+                    &account.fit, {}, rough);
     if (refinement_)
       refinement_ =
           std::make_unique<Refinement>(with_fitted(base_.description, base_.fit), *refinement_);
     fit_base();
     if (heldout_study_) {
       HeldoutFit h = fit_heldout(base_, evidence());
-      if (h.fit.conditions.size() == heldout_fit_.conditions.size()) {
-        heldout_study_ = h.study, heldout_fit_ = h.fit;
+      if (h.fit.conditions.size() == base_.heldout.conditions.size()) {
+        heldout_study_ = h.study, base_.heldout = h.fit;
         heldout_errors_ =
-            errors_at(*heldout_study_, heldout_fit_, refinement_.get(), options_.doubt);
+            errors_at(*heldout_study_, base_.heldout, refinement_.get(), options_.doubt);
         HeldoutFit again = fit_heldout(base_, evidence());
-        heldout_fit_ = again.fit, heldout_study_ = again.study;
+        base_.heldout = again.fit, heldout_study_ = again.study;
       }
-      base_.heldout = heldout_fit_;
     }
   }
 
   void decide() {
-    d_.last = base_.fit, d_.heldout_last = heldout_fit_;
-    d_.rest = base_.study->model(0).rest;
     if (!effects_.empty()) d_.map_after = localise(*base_.study, base_.fit, errors_.matrix);
-    d_.after = gap_of(base_.fit, d_.noise), d_.heldout_after = gap_of(heldout_fit_, d_.noise);
+    d_.after = gap_of(base_.fit, d_.noise), d_.heldout_after = gap_of(base_.heldout, d_.noise);
     d_.model = with_fitted(base_.description, base_.fit);
     d_.fit_tail = chi_square_tail(base_.chi_square / options_.doubt.dispersion, base_.dof);
     const bool explained = d_.fit_tail >= options_.fit_level;
@@ -335,7 +233,6 @@ class Search {
       d_.effects.clear();
       d_.model = found_;
       d_.map_after = d_.map_before;
-      d_.last = d_.first, d_.heldout_last = d_.heldout_first;
       d_.after = d_.before, d_.heldout_after = d_.heldout_before;
     }
   }
@@ -362,7 +259,6 @@ class Search {
   std::unique_ptr<Refinement> refinement_;
   Errors errors_, heldout_errors_;
   std::shared_ptr<Study> heldout_study_;
-  JointFit heldout_fit_;
   std::vector<Candidate> effects_;
   std::vector<double> confidence_;
   std::vector<Rival> rivals_;
@@ -370,20 +266,6 @@ class Search {
 };
 
 }  // namespace
-
-const char* to_string(Finding finding) {
-  switch (finding) {
-    case Finding::named:
-      return "named";
-    case Finding::ambiguous:
-      return "ambiguous";
-    case Finding::none:
-      return "none";
-    case Finding::unknown:
-      return "unknown";
-  }
-  return "none";
-}
 
 Discovery discover(const ModelDescription& description, const Observations& observations,
                    const DiscoverOptions& options) {

@@ -15,4 +15,10 @@ Matrix influence(Study& study, const JointFit& fit, size_t k) {
   return sensitivity_to_forces(study.model(k), e, right, study.workspace(k)).transpose();
 }
 
+std::vector<Matrix> influences_of(Study& study, const JointFit& fit) {
+  std::vector<Matrix> result;
+  for (size_t k = 0; k < study.size(); ++k) result.push_back(influence(study, fit, k));
+  return result;
+}
+
 }  // namespace genio

@@ -10,4 +10,7 @@ namespace genio {
 /// and the fibres' uncertainty are products with it. Empty where the equilibrium is unstable.
 Matrix influence(Study& study, const JointFit& fit, size_t k);
 
+/// Of all conditions.
+std::vector<Matrix> influences_of(Study& study, const JointFit& fit);
+
 }  // namespace genio

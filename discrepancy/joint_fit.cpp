@@ -13,8 +13,7 @@ namespace {
 
 constexpr double interval = 1.645;  // standard deviations of a 90 % interval
 constexpr int most_steps = 25;
-constexpr int starts_alone = 2;    // of a condition inverted by itself
-constexpr double on_bound = 1e-3;  // of an unknown
+constexpr int starts_alone = 2;  // of a condition inverted by itself
 
 std::vector<Eigen::Index> open_unknowns(const Vector& lower, const Vector& upper) {
   std::vector<Eigen::Index> open;
@@ -23,13 +22,16 @@ std::vector<Eigen::Index> open_unknowns(const Vector& lower, const Vector& upper
   return open;
 }
 
-/// What is expected of the unknowns of condition k: their prior's mode, or, where nothing is known
-/// of the forces, an inversion of the condition by itself.
-Vector first_guess(Study& study, size_t k, JointProblem::Part& part) {
-  const PriorTerms& prior = part.objective.prior();
+/// What is expected of the unknowns before the shape is seen: their prior's mode.
+Vector expected(const PriorTerms& prior) {
   Vector z = prior.lower;
   const auto open = prior.open();
   if (!open.empty()) z(open) = prior.density().mode;
+  return z;
+}
+
+/// Where nothing is known of the forces, an inversion of the condition by itself instead.
+Vector first_guess(Study& study, size_t k, JointProblem::Part& part, Vector z) {
   if (study.condition(k).forces) return z;
   InferOptions options;
   options.bilateral = study.bilateral(k);
@@ -87,8 +89,6 @@ void summarise_shared(JointFit& f, const Matrix& covariance,
     const double low = command.lower * command.scale, high = command.upper * command.scale;
     e.low = std::max(low, e.value - interval * e.sd);
     e.high = std::min(high, e.value + interval * e.sd);
-    e.at_bound = c.z[Eigen::Index(i)] < command.lower + on_bound ||
-                 c.z[Eigen::Index(i)] > command.upper - on_bound;
     f.shared.push_back(e);
   }
 }
@@ -96,15 +96,9 @@ void summarise_shared(JointFit& f, const Matrix& covariance,
 }  // namespace
 
 Vector JointFit::residuals() const {
-  Eigen::Index rows = 0;
-  for (const auto& c : conditions) rows += c.residuals.values.size();
-  Vector r(rows);
-  rows = 0;
-  for (const auto& c : conditions) {
-    r.segment(rows, c.residuals.values.size()) = c.residuals.values;
-    rows += c.residuals.values.size();
-  }
-  return r;
+  std::vector<Vector> parts;
+  for (const auto& c : conditions) parts.push_back(c.residuals.values);
+  return stacked(parts);
 }
 
 Matrix JointFit::jacobian() const {
@@ -126,14 +120,10 @@ JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* 
   Vector u = Vector::Zero(f.lower.size());
   for (size_t k = 0; k < problem.size(); ++k) {
     auto& part = problem.part(k);
-    Vector z = start ? Vector(part.objective.prior().lower) : first_guess(study, k, part);
-    const auto& commands = part.objective.commands();
-    for (size_t i = 0; i < commands.size(); ++i)
-      if (const auto p = shared.parameters.find(commands[i].name); p != shared.parameters.end())
-        z[Eigen::Index(i)] = p->second.mean / commands[i].scale;
-      else if (commands[i].kind == Command::Kind::pose) z[Eigen::Index(i)] = 0;
-    if (start) z = start_of(start->conditions[k], commands, shared_start, z);
-    u(part.which) = z;
+    const Vector z = expected(part.objective.prior());
+    u(part.which) = start
+                        ? start_of(start->conditions[k], part.objective.commands(), shared_start, z)
+                        : first_guess(study, k, part, z);
   }
   u = u.cwiseMax(f.lower).cwiseMin(f.upper);
   const DescentResult r = descend(problem, u, {most_steps, precision, {}});
@@ -151,7 +141,7 @@ JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* 
       return f;
     }
     f.conditions.push_back({part.objective.commands(), part.which, z, p->equilibrium.x,
-                            p->equilibrium.parameters, p->residuals, p->positions, p->jacobian});
+                            p->equilibrium.parameters, p->residuals, p->jacobian});
     f.conditions.back().residuals.values = part.residuals(*p);
   }
   const auto open = open_unknowns(f.lower, f.upper);

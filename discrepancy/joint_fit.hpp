@@ -23,7 +23,6 @@ struct FittedCondition {
   Positions x;  ///< [m]
   Parameters parameters;
   Residuals residuals;  ///< in units of the noise
-  Matrix by_unknown;    ///< dx/dz (3 n x count)
   Matrix jacobian;      ///< d residuals / dz
 };
 
@@ -31,7 +30,6 @@ struct FittedCondition {
 struct SharedEstimate {
   std::string name, unit;
   double value = 0, sd = 0, low = 0, high = 0;  ///< 90 % interval
-  bool at_bound = false;
 };
 
 struct JointFit {

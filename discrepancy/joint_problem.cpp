@@ -124,9 +124,17 @@ Matrix JointProblem::whitened(const Matrix& m) const {
   return covariance_ ? Matrix(covariance_->matrixL().solve(m)) : m;
 }
 
+Vector stacked(const std::vector<Vector>& parts) {
+  Eigen::Index rows = 0;
+  for (const Vector& v : parts) rows += v.size();
+  Vector all(rows);
+  rows = 0;
+  for (const Vector& v : parts) all.segment(rows, v.size()) = v, rows += v.size();
+  return all;
+}
+
 std::optional<double> JointProblem::value(const Vector& u) {
   std::vector<Vector> r;
-  Eigen::Index rows = 0;
   double square = 0, points = 0;
   for (size_t k = 0; k < parts_.size(); ++k) {
     const auto* point = parts_[k]->objective.at(of_part(u, k));
@@ -134,15 +142,12 @@ std::optional<double> JointProblem::value(const Vector& u) {
       failure_ = parts_[k]->objective.last_failure();
       return {};
     }
-    r.push_back(parts_[k]->residuals(*point)), rows += r.back().size();
+    r.push_back(parts_[k]->residuals(*point));
     square += point->residuals.distances.squaredNorm();
     points += double(point->residuals.distances.size());
   }
   rms_ = std::sqrt(square / std::max(1.0, points));
-  Vector all(rows);
-  rows = 0;
-  for (const Vector& v : r) all.segment(rows, v.size()) = v, rows += v.size();
-  return 0.5 * whitened(all).squaredNorm() + prior_value(u);
+  return 0.5 * whitened(stacked(r)).squaredNorm() + prior_value(u);
 }
 
 std::unique_ptr<LocalModel> JointProblem::local(const Vector& u) {

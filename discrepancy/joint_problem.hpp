@@ -6,6 +6,9 @@
 
 namespace genio {
 
+/// One after another.
+Vector stacked(const std::vector<Vector>& parts);
+
 /// Commands of every condition, then what they share.
 class JointProblem final : public MisfitProblem {
  public:

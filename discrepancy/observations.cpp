@@ -107,11 +107,6 @@ Condition read_condition(const TomlReader& file, const toml::node& node, const M
 
 }  // namespace
 
-bool Observations::forces_known() const {
-  return std::any_of(conditions.begin(), conditions.end(),
-                     [](const Condition& c) { return c.forces.has_value(); });
-}
-
 std::string effect_parameter(const std::string& name, const std::string& source) {
   const auto dot = name.find('.');
   const std::string effect = name.substr(0, dot);

@@ -29,8 +29,6 @@ struct Observations {
   double effort_sd = Prior{}.effort_sd;      ///< of an unknown activation about 0
   std::optional<Prior::HeadPose> head_pose;  ///< of each condition, estimated along where set
   std::vector<Condition> conditions;
-
-  bool forces_known() const;
 };
 
 /// Reads the TOML file `path` (see docs/discover.md). Flesh points are looked up in `model`.

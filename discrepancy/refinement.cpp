@@ -46,16 +46,11 @@ ModelDescription geometry(ModelDescription d) {
 
 /// Node of `part` that lies where each node of `whole`, or its mirror image, does.
 std::vector<int> nodes_of(const HexMesh& part, const HexMesh& whole) {
-  // Cells of 10 nm; the offset keeps round coordinates off their edges.
-  using Key = std::array<long long, 3>;
-  const auto key = [](const Vec3& x) {
-    const auto cell = [](double v) { return std::llround(v * 1e8 + 0.3137); };
-    return Key{cell(x[0]), cell(std::abs(x[1])), cell(x[2])};
-  };
-  std::map<Key, int> at;
-  for (size_t a = 0; a < part.nodes.size(); ++a) at[key(part.nodes[a])] = int(a);
+  std::map<std::array<long long, 3>, int> at;
+  for (size_t a = 0; a < part.nodes.size(); ++a) at[place_cell(part.nodes[a])] = int(a);
   std::vector<int> result;
-  for (const Vec3& x : whole.nodes) result.push_back(at.at(key(x)));
+  for (const Vec3& x : whole.nodes)
+    result.push_back(at.at(place_cell({x[0], std::abs(x[1]), x[2]})));
   return result;
 }
 
@@ -85,11 +80,8 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c, siz
   const Model& near = t.mirror ? t.mirror->half : t.coarse;
   const Positions start = t.mirror ? Positions(t.mirror->right_half(rough.x)) : rough.x;
   Positions& fine_start = latest_[condition];
-  if (fine_start.size() != t.fine.rest.size()) {
-    HexMesh moved = near.mesh;
-    for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(start, int(a));
-    fine_start = rest_positions(refined(moved, near.description->supports).mesh);
-  }
+  if (fine_start.size() != t.fine.rest.size())
+    fine_start = prolonged(near.mesh, near.description->supports, start);
   const Equilibrium smooth = solve_equilibrium(
       t.fine, t.mirror ? halved(t.fine, t.coarse, p) : evened(t.fine, t.coarse, p, false),
       fine_start, t.fine_workspace, options);

@@ -180,8 +180,6 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
       s.sd = posterior.inverse().diagonal().cwiseSqrt().cwiseProduct(typical);
       s.direction = g * (step.isZero(0) ? Vector(Vector::Ones(count)) : step);
       s.direction.normalize();
-      const double total = projection.residuals().squaredNorm();
-      s.gap_closed = std::max(0.0, -2 * slope.dot(step) - step.dot(information * step)) / total;
       const double sides = count == 1 && one_sided(strengths[0]) ? 1 : 2;
       const double z = normal_quantile(level / sides / double(candidates.size())) + nine_in_ten;
       s.detectable = z / std::sqrt(information.trace() / double(count));

@@ -11,7 +11,7 @@ struct Candidate {
   std::string effect, where;
   std::optional<Hypothesis> hypothesis;  ///< unset: head_pose
   std::vector<FreeNumber> strengths;
-  std::string label() const { return where.empty() ? effect : effect + " (" + where + ")"; }
+  std::string label() const { return genio::label(effect, where); }
 };
 
 /// All hypotheses of a description, and the head pose unless it is estimated anyway.
@@ -50,7 +50,6 @@ struct Score {
   double p = 1;             ///< its tail, for this candidate alone
   double log_evidence = 0;  ///< gain over nothing, to second order, typical strengths believed
   Vector estimate, sd;      ///< of the strengths, by one step
-  double gap_closed = 0;    ///< part of the residuals' square that it takes away
   double detectable = 0;    ///< times its typical strength: seen nine times in ten
   Vector direction;         ///< its whitened, projected signature, of unit length
 };

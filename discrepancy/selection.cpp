@@ -15,14 +15,9 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s) {
     const double least = 0.05 * n.info.typical;  // off the kink of a one-sided one
     double v = s.estimate[Eigen::Index(i)];
     if (std::abs(v - n.info.absent) < least) v = n.info.absent + least;
-    result[(c.hypothesis ? c.effect : "head_pose") + "." + n.name] =
-        std::clamp(v, n.info.lower, n.info.upper);
+    result[c.effect + "." + n.name] = std::clamp(v, n.info.lower, n.info.upper);
   }
   return result;
-}
-
-double chi_square(const JointFit& fit, const Eigen::LLT<Matrix>& covariance) {
-  return covariance.matrixL().solve(fit.residuals()).squaredNorm();
 }
 
 }  // namespace
@@ -39,7 +34,6 @@ std::vector<double> log_prior(const std::vector<Candidate>& candidates) {
 Account refit(const Account& base, const Candidate& candidate, const Score& score,
               const Evidence& evidence) {
   Account a;
-  a.added = candidate;
   a.shared = base.shared;
   a.description = base.description;
   std::map<std::string, double> start;
@@ -48,10 +42,9 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
     const bool is_switch = h.is_switch();
     a.description = h.added_to(std::move(a.description), is_switch);
     if (!is_switch) {
-      for (const FreeNumber& n : h.strengths)
-        a.shared.parameters[h.effect + "." + n.name] = {n.info.absent, n.info.typical};
-      for (const FreeNumber& n : h.details)
-        a.shared.parameters[h.effect + "." + n.name] = {n.info.absent, n.info.typical};
+      for (const auto* numbers : {&h.strengths, &h.details})
+        for (const FreeNumber& n : *numbers)
+          a.shared.parameters[h.effect + "." + n.name] = {n.info.absent, n.info.typical};
       start = starts(candidate, score);
     }
   } else {
@@ -68,7 +61,7 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
   }
   if (a.fitted()) {
     const Projection projection(a.fit, evidence.covariance);
-    a.chi_square = chi_square(a.fit, evidence.covariance), a.dof = projection.dof();
+    a.chi_square = projection.chi_square(), a.dof = projection.dof();
   }
   return a;
 }

@@ -7,14 +7,12 @@ namespace genio {
 
 /// A fit under one account of the data: the model as it is, or with one candidate more.
 struct Account {
-  std::optional<Candidate> added;  ///< unset: nothing more
-  ModelDescription description;    ///< with it, at vanishing strength
-  SharedPrior shared;              ///< its numbers and those of earlier effects
-  std::shared_ptr<Study> study;    ///< of the fitted conditions
+  ModelDescription description;  ///< with it, at vanishing strength
+  SharedPrior shared;            ///< its numbers and those of earlier effects
+  std::shared_ptr<Study> study;  ///< of the fitted conditions
   JointFit fit;
   double chi_square = 0, dof = 0;  ///< of the residuals
   JointFit heldout;                ///< conditions held out, its parameters as fitted
-  double probability = 0;          ///< among all accounts that were tried
   std::string message;             ///< why it could not be fitted
 
   bool fitted() const { return fit.converged; }

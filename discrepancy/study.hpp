@@ -25,8 +25,6 @@ class Study {
   const Model& model(size_t k) const { return *tongues_[tongue_[k]]->model; }
   Workspace& workspace(size_t k) { return inferring(k).whole().workspace; }
   InferWorkspace& inferring(size_t k) { return tongues_[tongue_[k]]->workspace; }
-  /// Index of the model of condition k among the distinct ones.
-  size_t tongue(size_t k) const { return tongue_[k]; }
   /// What is believed of its commands.
   Prior prior(size_t k) const;
   /// True where its commands drive both sides alike.

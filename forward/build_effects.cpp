@@ -40,7 +40,6 @@ struct EffectKind {
   Places places = nullptr;  ///< where it may be, where that needs saying
 };
 
-constexpr Support in_midplane = held_along(false, true, false);
 constexpr double field_spacing = 2e-3;    // [m]
 constexpr double deepest_overlap = 2e-3;  // at rest [m]
 constexpr double field_reach = 0.02;      // how far from its rest shape the tongue can touch [m]
@@ -264,26 +263,6 @@ std::vector<Support> supports_for(const ModelDescription& d) {
     if (s == Support::horizontal && d.effects.contains("hyoid_mobility")) s = Support::body;
   }
   return supports;
-}
-
-bool moves_freely(Support s) { return s == Support::free || s == in_midplane; }
-
-std::vector<Quad> outer_faces(const HexMesh& mesh, const std::vector<Support>& supports) {
-  std::vector<Quad> faces = boundary_quads(mesh);
-  std::erase_if(faces, [&](const Quad& f) {
-    return std::all_of(f.begin(), f.end(),
-                       [&](int n) { return supports[size_t(n)] == in_midplane; });
-  });
-  return faces;
-}
-
-std::vector<Quad> free_faces(const HexMesh& mesh, const std::vector<Support>& supports) {
-  std::vector<Quad> faces = outer_faces(mesh, supports);
-  std::erase_if(faces, [&](const Quad& f) {
-    return std::any_of(f.begin(), f.end(),
-                       [&](int n) { return !moves_freely(supports[size_t(n)]); });
-  });
-  return faces;
 }
 
 std::shared_ptr<const Effect> make_effect(const std::string& name, const EffectTable& table,

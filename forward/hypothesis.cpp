@@ -56,7 +56,7 @@ void add(const ModelDescription& d, const std::string& name, const Place& place,
 
 }  // namespace
 
-std::string Hypothesis::label() const {
+std::string label(const std::string& effect, const std::string& where) {
   return where.empty() ? effect : effect + " (" + where + ")";
 }
 

@@ -15,6 +15,9 @@ struct FreeNumber {
   ParameterInfo info;             ///< of the first
 };
 
+/// "stiff_region (anterior)"; without a place the effect's name.
+std::string label(const std::string& effect, const std::string& where);
+
 /// One way in which one effect may be what a model lacks.
 struct Hypothesis {
   std::string effect;                  ///< "stiff_region"
@@ -24,8 +27,7 @@ struct Hypothesis {
   std::vector<FreeNumber> details;     ///< matter once a strength is off its absent value
   std::shared_ptr<const Effect> made;  ///< from `table`
 
-  /// "stiff_region (anterior)"
-  std::string label() const;
+  std::string label() const { return genio::label(effect, where); }
   /// True where it is there or not: its strengths enforce a constraint and have no value to fit.
   bool is_switch() const;
   /// The model with it, at vanishing strength; `present`: a switch at its typical strength.

@@ -1,6 +1,7 @@
 #include "forward/refine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "forward/hex8.hpp"
@@ -15,6 +16,17 @@ Support support_between(const std::vector<Support>& parents) {
     s = s == Support::fixed ? other : s;
   }
   return s;
+}
+
+std::array<long long, 3> place_cell(const Vec3& x) {
+  const auto cell = [](double v) { return std::llround(v * 1e8 + 0.3137); };
+  return {cell(x[0]), cell(x[1]), cell(x[2])};
+}
+
+Positions prolonged(const HexMesh& mesh, const std::vector<Support>& supports, const Positions& x) {
+  HexMesh moved = mesh;
+  for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(x, int(a));
+  return rest_positions(refined(moved, supports).mesh);
 }
 
 RefinedMesh refined(const HexMesh& mesh, const std::vector<Support>& supports) {

@@ -14,6 +14,13 @@ struct RefinedMesh {
 /// the other; between any support and a free node it is free.
 Support support_between(const std::vector<Support>& parents);
 
+/// Cell of 10 nm that a place lies in, to find nodes by where they are; off the grid of round
+/// coordinates, so that these, and their means, lie inside cells.
+std::array<long long, 3> place_cell(const Vec3& x);
+
+/// Positions of the refined mesh's nodes where this one has the shape `x`: a start for its solves.
+Positions prolonged(const HexMesh& mesh, const std::vector<Support>& supports, const Positions& x);
+
 RefinedMesh refined(const HexMesh& mesh, const std::vector<Support>& supports);
 
 }  // namespace genio

@@ -1,6 +1,5 @@
 #include "forward/refined_model.hpp"
 
-#include <cmath>
 #include <map>
 #include <set>
 
@@ -14,23 +13,17 @@ namespace {
 class Middles {
  public:
   Middles(const HexMesh& old, const HexMesh& fine) : fine_(fine) {
-    for (size_t n = old.nodes.size(); n < fine.nodes.size(); ++n) at_[key(fine.nodes[n])] = int(n);
+    for (size_t n = old.nodes.size(); n < fine.nodes.size(); ++n)
+      at_[place_cell(fine.nodes[n])] = int(n);
   }
   int operator()(int a, int b) const {
-    const auto it = at_.find(key(0.5 * (fine_.nodes[size_t(a)] + fine_.nodes[size_t(b)])));
+    const auto it = at_.find(place_cell(0.5 * (fine_.nodes[size_t(a)] + fine_.nodes[size_t(b)])));
     return it == at_.end() ? -1 : it->second;
   }
 
  private:
-  using Key = std::array<long long, 3>;
-  // Cells of 10 nm; the offset keeps round coordinates, and their means, off the cells' edges.
-  static Key key(const Vec3& x) {
-    Key k;
-    for (int i = 0; i < 3; ++i) k[size_t(i)] = std::llround(x[i] * 1e8 + 0.3137);
-    return k;
-  }
   const HexMesh& fine_;
-  std::map<Key, int> at_;
+  std::map<std::array<long long, 3>, int> at_;
 };
 
 Fibre with_middles(const Fibre& fibre, const Middles& middle) {

@@ -37,10 +37,6 @@ void draw_map(Svg& svg, const ResidualMap& map, size_t condition, double left, d
                  {p.beyond ? "#111" : "none", colour(p.distance), p.beyond ? 1.2 : 0});
 }
 
-std::string labelled(const std::string& effect, const std::string& where) {
-  return where.empty() ? effect : effect + " (" + where + ")";
-}
-
 std::string gap_row(const char* what, const Gap& before, const Gap& after, double noise) {
   return fmt::format(
       "<tr><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n", what,
@@ -51,7 +47,7 @@ std::string effects_part(const Discovery& d) {
   std::string s;
   for (const NamedEffect& e : d.effects) {
     s += fmt::format("<h3>{}</h3><p>Probability among all accounts tried: {:.3f}.</p>\n<table>",
-                     escaped(labelled(e.effect, e.where)), e.confidence);
+                     escaped(label(e.effect, e.where)), e.confidence);
     s += "<tr><th>parameter</th><th>value</th><th>sd</th><th>90 % interval</th><th>unit</th></tr>";
     for (const SharedEstimate& p : e.parameters)
       s += fmt::format(
@@ -65,7 +61,7 @@ std::string effects_part(const Discovery& d) {
     s += fmt::format(
         "<p>Or {}: probability {:.3f}; its signature is like the first one's by "
         "{:.2f}.</p>\n",
-        escaped(labelled(r.effect, r.where)), r.probability, r.similarity);
+        escaped(label(r.effect, r.where)), r.probability, r.similarity);
   return s;
 }
 

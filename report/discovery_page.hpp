@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "discrepancy/discover.hpp"
+#include "discrepancy/discovery.hpp"
 
 namespace genio {
 

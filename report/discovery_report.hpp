@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "discrepancy/discover.hpp"
+#include "discrepancy/discovery.hpp"
 
 namespace genio {
 

@@ -1,0 +1,54 @@
+#include "discrepancy/discovery.hpp"
+
+#include <cmath>
+
+namespace genio {
+
+const char* to_string(Finding finding) {
+  switch (finding) {
+    case Finding::named:
+      return "named";
+    case Finding::ambiguous:
+      return "ambiguous";
+    case Finding::none:
+      return "none";
+    case Finding::unknown:
+      return "unknown";
+  }
+  return "none";
+}
+
+Gap gap_of(const JointFit& fit, double noise) {
+  Gap g;
+  const Vector r = fit.residuals();
+  if (r.size() == 0) return g;
+  double square = 0;
+  Eigen::Index at = 0;
+  for (const auto& c : fit.conditions)
+    for (const auto& row : c.residuals.rows) square += std::pow(r[at++] / row.scale, 2);
+  g.rms = std::sqrt(square / double(r.size()));
+  g.excess = std::sqrt(std::max(0.0, g.rms * g.rms - noise * noise));
+  return g;
+}
+
+std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>& found,
+                               const std::vector<double>& confidence) {
+  std::vector<NamedEffect> result;
+  for (size_t i = 0; i < found.size(); ++i) {
+    NamedEffect n{found[i].effect, found[i].where, {}, confidence[i]};
+    for (const SharedEstimate& e : fit.shared) {
+      if (e.name.substr(0, e.name.find('.')) != found[i].effect) continue;
+      const std::string key = e.name.substr(e.name.find('.') + 1);
+      const bool other = found[i].effect == "weak_muscle" && key != found[i].where;
+      if (!other) n.parameters.push_back(e);
+    }
+    if (found[i].hypothesis && found[i].hypothesis->is_switch())
+      for (const FreeNumber& s : found[i].strengths)
+        n.parameters.push_back({found[i].effect + "." + s.name, s.info.unit,
+                                s.info.absent + s.info.typical, 0, 0, s.info.upper});
+    result.push_back(std::move(n));
+  }
+  return result;
+}
+
+}  // namespace genio

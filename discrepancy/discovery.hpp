@@ -1,0 +1,72 @@
+#pragma once
+// What a search for a missing effect found.
+
+#include "discrepancy/localise.hpp"
+#include "discrepancy/score.hpp"
+
+namespace genio {
+
+enum class Finding { named, ambiguous, none, unknown };
+const char* to_string(Finding finding);
+
+/// The gap between data and shapes, root mean square over points [m]: as it is, and what exceeds
+/// the noise.
+struct Gap {
+  double rms = 0, excess = 0;
+};
+
+Gap gap_of(const JointFit& fit, double noise);
+
+/// An effect that the data call for.
+struct NamedEffect {
+  std::string effect, where;
+  std::vector<SharedEstimate> parameters;  ///< "stiff_region.factor" and so on
+  double confidence = 0;                   ///< probability among all accounts tried
+};
+
+/// The effects found, one after another, with their parameters as fitted.
+std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>& found,
+                               const std::vector<double>& confidence);
+
+/// Another account of the same data.
+struct Rival {
+  std::string effect, where;
+  double probability = 0;
+  double similarity = 0;  ///< cosine between its signature and the best one's
+};
+
+/// One candidate of one round, as scored and, for the best, as refitted.
+struct Ranked {
+  Candidate candidate;
+  Score score;
+  bool refitted = false;
+  double log_odds = 0;     ///< against nothing, prior odds included
+  double probability = 0;  ///< among all
+  std::string message;
+};
+
+struct Round {
+  std::vector<Ranked> candidates;  ///< most likely first
+  double nothing = 0;              ///< probability that nothing (more) is missing
+  double chi_square = 0, dof = 0;  ///< of the residuals before
+  double seconds_scoring = 0;
+};
+
+struct Discovery {
+  Finding finding = Finding::none;
+  std::string message;
+  std::vector<NamedEffect> effects;
+  std::vector<Rival> alternatives;
+  Gap before, after, heldout_before, heldout_after;
+  double noise = 0;        ///< [m]
+  double fit_tail = 1;     ///< probability of residuals as large as those left, nothing missing
+  ModelDescription model;  ///< patched
+  std::vector<Round> rounds;
+  JointFit first, last;  ///< fits of the fitted conditions before and after
+  JointFit heldout_first, heldout_last;
+  ResidualMap map_before, map_after;  ///< of the fitted conditions
+  HiddenForce hidden;                 ///< that would close the gap of the model as it was
+  double seconds = 0;
+};
+
+}  // namespace genio

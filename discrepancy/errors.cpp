@@ -1,0 +1,17 @@
+#include "discrepancy/errors.hpp"
+
+#include "discrepancy/influence.hpp"
+
+namespace genio {
+
+Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
+                 const ModelDoubt& doubt) {
+  Errors e;
+  if (refinement) e.corrections = refinement->corrections(study, fit);
+  e.influences = influences_of(study, fit);
+  e.matrix = residual_covariance(study, fit, e.influences, e.corrections, doubt);
+  e.covariance.compute(e.matrix);
+  return e;
+}
+
+}  // namespace genio
