@@ -26,10 +26,23 @@ Json found_json(const Discovery& d) {
   }
   for (const Rival& r : d.alternatives)
     rivals.push_back({{"effect", r.effect}, {"probability", r.probability}});
+  Json rounds = Json::array();
+  for (const Round& round : d.rounds) {
+    Json best = Json::array();
+    for (const Ranked& r : round.candidates)
+      if (r.refitted || best.size() < 3)
+        best.push_back({{"candidate", r.candidate.label()},
+                        {"score", r.score.log_evidence},
+                        {"refitted", r.refitted},
+                        {"log_odds", r.log_odds},
+                        {"probability", r.probability}});
+    rounds.push_back(best);
+  }
   const auto excess = [&](const Gap& g) { return 1e3 * g.excess; };
   return {{"verdict", to_string(d.finding)},
           {"effects", effects},
           {"rivals", rivals},
+          {"rounds", rounds},
           {"excess_before_mm", excess(d.before)},
           {"excess_after_mm", excess(d.after)},
           {"heldout_excess_before_mm", excess(d.heldout_before)},
@@ -39,6 +52,10 @@ Json found_json(const Discovery& d) {
           {"fit_p", d.fit_tail},
           {"scoring_s", d.rounds.front().seconds_scoring},
           {"wall_s", d.seconds}};
+}
+
+std::string data_of(const std::string& folder, const HiddenCase& c) {
+  return folder + "/data/" + c.name;
 }
 
 }  // namespace
@@ -79,27 +96,33 @@ std::vector<HiddenCase> discover_cases() {
   return cases;
 }
 
-Json run_discover_case(const ModelDescription& tongue, const HiddenCase& c,
-                       const std::string& folder) {
-  const std::string data = folder + "/data/" + c.name,
-                    answer = folder + "/answers/" + c.name + ".json";
+Json prepare_discover_case(const ModelDescription& tongue, const HiddenCase& c,
+                           const std::string& folder) {
+  const std::string data = data_of(folder, c), answer = folder + "/answers/" + c.name + ".json";
   fs::create_directories(folder + "/answers");
   Json hidden;
   if (std::ifstream in(answer); in) in >> hidden;
-  Json result = {{"case", c.name}};
+  if (hidden.contains("failed") || (!hidden.is_null() && fs::exists(data + "/observations.toml")))
+    return hidden;
   try {
-    if (hidden.is_null() ||
-        (!hidden.contains("failed") && !fs::exists(data + "/observations.toml")))
-      hidden = make_hidden_data(tongue, c, data, answer);
-    result["answer"] = hidden;
-    if (hidden.contains("failed")) return result;
+    return make_hidden_data(tongue, c, data, answer);
+  } catch (const std::exception& e) {
+    return {{"case", c.name}, {"failed", e.what()}};
+  }
+}
+
+Json run_discover_case(const ModelDescription& tongue, const HiddenCase& c,
+                       const std::string& folder) {
+  Json result = {{"case", c.name}, {"answer", prepare_discover_case(tongue, c, folder)}};
+  if (result["answer"].contains("failed")) return result;
+  const std::string data = data_of(folder, c);
+  try {
     const ModelDescription d = read_description(data + "/model");
     const Observations o =
         read_observations(data + "/observations.toml", build_model(d, data + "/model"));
     result["found"] = found_json(discover(d, o));
   } catch (const std::exception& e) {
     result["error"] = e.what();
-    result["answer"] = {{"failed", e.what()}};
   }
   return result;
 }

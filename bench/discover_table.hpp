@@ -10,7 +10,13 @@ namespace genio::bench {
 /// times; with forces known to 10 %, and unknown.
 std::vector<HiddenCase> discover_cases();
 
-/// Makes the data set of a case below `folder` unless it is there, and runs the discovery on it.
+/// Makes the data set of a case below `folder` unless it is there. Returns its answer, or why there
+/// is none (`failed`).
+Json prepare_discover_case(const ModelDescription& tongue, const HiddenCase& what,
+                           const std::string& folder);
+
+/// Runs the discovery on a case, whose data are made where they are not there: its answer, and what
+/// was found or the error.
 Json run_discover_case(const ModelDescription& tongue, const HiddenCase& what,
                        const std::string& folder);
 

@@ -13,7 +13,7 @@ struct BenchOptions {
   std::string what, model = default_model(), data, target, palate, out;
   int sample = 0, threads = 1;
   unsigned seed = 1;
-  bool json = false, all = false;
+  bool json = false, all = false, only_data = false;
 };
 
 const std::string& needed(const std::string& value, const char* option, const std::string& what) {
@@ -30,7 +30,7 @@ int run(const BenchOptions& o) {
     j = bench::grenoble(needed(o.data, "--data", o.what), tell);
   } else if (o.what == "discover") {
     j = bench_discover(o.model, o.out.empty() ? "bench-discover" : o.out, o.sample, o.seed,
-                       o.threads);
+                       o.threads, o.only_data);
   } else if (o.what == "forward") {
     j = bench::forward(tell);
   } else if (o.what == "verification") {
@@ -76,6 +76,7 @@ Runner add_bench(CLI::App& app) {
       ->check(CLI::Range(1, 100000));
   app.add_option("--threads", o->threads, "discover: data sets at a time")
       ->check(CLI::Range(1, 1024));
+  app.add_flag("--only-data", o->only_data, "discover: make the data sets, run nothing");
   app.add_option("--seed", o->seed, "discover: which random cases a sample takes");
   app.add_flag("--all", o->all, "ultrasound: every frame, not one a word");
   app.add_option("--out", o->out,

@@ -14,13 +14,13 @@ namespace genio::cli {
 using bench::HiddenCase;
 
 nlohmann::json bench_discover(const std::string& model, const std::string& folder, int sample,
-                              unsigned seed, int threads) {
+                              unsigned seed, int threads, bool only_data) {
   std::vector<HiddenCase> cases = bench::discover_cases();
   std::mt19937 random(seed);
   std::shuffle(cases.begin(), cases.end(), random);
   if (sample > 0 && size_t(sample) < cases.size()) cases.resize(size_t(sample));
   std::filesystem::create_directories(folder);
-  JsonLines log(folder + "/results.jsonl", "case");
+  JsonLines log(folder + (only_data ? "/prepared.jsonl" : "/results.jsonl"), "case");
   std::vector<nlohmann::json> results;
   for (const auto& known : log.known())
     if (std::erase_if(cases, [&](const HiddenCase& c) { return c.name == known["case"]; }) > 0)
@@ -30,7 +30,8 @@ nlohmann::json bench_discover(const std::string& model, const std::string& folde
   ProgressLine progress(int(results.size()), int(results.size() + cases.size()), "data sets");
   const auto work = [&](int w, const Send& send) {
     for (size_t k = size_t(w); k < cases.size(); k += size_t(workers))
-      send(bench::run_discover_case(tongue, cases[k], folder));
+      send(only_data ? bench::prepare_discover_case(tongue, cases[k], folder)
+                     : bench::run_discover_case(tongue, cases[k], folder));
   };
   const auto collect = [&](const nlohmann::json& j) {
     log.add(j);
@@ -38,7 +39,8 @@ nlohmann::json bench_discover(const std::string& model, const std::string& folde
     progress.step();
   };
   if (!cases.empty()) in_processes(workers, work, collect);
-  return bench::discover_figures(results);
+  return only_data ? nlohmann::json{{"prepared", results.size()}}
+                   : bench::discover_figures(results);
 }
 
 }  // namespace genio::cli

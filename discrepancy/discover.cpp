@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "discrepancy/errors.hpp"
 #include "discrepancy/influence.hpp"
 #include "discrepancy/selection.hpp"
+#include "discrepancy/symmetric_part.hpp"
 #include "discrepancy/weighing.hpp"
 #include "inverse/posterior.hpp"
 
@@ -17,8 +19,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double behind = 0.4;
-constexpr double rough = 1, fine = 0.03;  // precision of fits, of the log posterior
+constexpr double behind = 0.4;   // of the best gain, that a score must promise for a refit
+constexpr double rough = 1;      // precision of a first fit, of the log posterior
+constexpr double hopeless = 30;  // log posterior behind the best
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -31,7 +35,7 @@ double cosine(const Vector& a, const Vector& b) {
 class Search {
  public:
   Search(const ModelDescription& d, const Observations& o, const DiscoverOptions& options)
-      : observations_(o), options_(options), found_(d) {
+      : observations_(o), options_(options), found_(d), evidence_{o, {}, {}} {
     base_.description = d;
   }
 
@@ -55,64 +59,65 @@ class Search {
   void begin() {
     const auto fitted = fitted_conditions(observations_);
     const auto heldout = heldout_conditions(observations_);
-    base_.study =
-        std::make_shared<Study>(with_mobile_supports(base_.description), observations_, fitted);
     tell(fmt::format("{} conditions to fit, {} held out", fitted.size(), heldout.size()));
-    base_.fit = fit(*base_.study, {}, nullptr, {}, nullptr, {}, rough);
-    if (base_.fit.conditions.size() != fitted.size())
-      throw InputError("the model does not reach the conditions: " + base_.fit.message);
+    std::vector<size_t> all = fitted;
+    all.insert(all.end(), heldout.begin(), heldout.end());
+    JointFit guess, guess_heldout;
+    {
+      Study study(base_.description, observations_, all);
+      guess = fit(study, {}, nullptr, {.precision = rough});
+      if (guess.conditions.size() != all.size())
+        throw InputError("the model does not reach the conditions: " + guess.message);
+    }
+    const auto middle = guess.conditions.begin() + long(fitted.size());
+    guess_heldout.conditions.assign(middle, guess.conditions.end());
+    guess.conditions.erase(middle, guess.conditions.end());
     if (options_.correct_mesh)
       refinement_ = std::make_unique<Refinement>(base_.description, observations_);
-    // Forces that made up for the mesh go back once it is corrected, and its error with them.
-    fit_base(rough), fit_base();
+    base_.study =
+        std::make_shared<Study>(with_mobile_supports(base_.description), observations_, fitted);
+    base_.fit = fit(*base_.study, {}, nullptr, {&guess.conditions});
+    settle();
     if (!heldout.empty()) {
-      heldout_study_ = std::make_shared<Study>(base_.description, observations_, heldout);
-      base_.heldout = fit(*heldout_study_, {}, nullptr, {}, nullptr, {}, rough);
-      if (base_.heldout.conditions.size() != heldout.size())
-        throw InputError("the model does not reach the conditions held out: " +
-                         base_.heldout.message);
-      for (int times = 0; times < 2; ++times) {
-        heldout_errors_ =
-            errors_at(*heldout_study_, base_.heldout, refinement_.get(), options_.doubt);
-        base_.heldout = fit(*heldout_study_, {}, &heldout_errors_.covariance,
-                            heldout_errors_.corrections, &base_.heldout);
-      }
+      base_.heldout_study = std::make_shared<Study>(base_.description, observations_, heldout);
+      base_.heldout = fit(*base_.heldout_study, {}, nullptr, {&guess_heldout.conditions});
+      settle_heldout();
     }
     d_.before = gap_of(base_.fit, d_.noise), d_.heldout_before = gap_of(base_.heldout, d_.noise);
     tell(fmt::format("gap {:.2f} mm ({:.2f} mm held out), noise {:.2f} mm", 1e3 * d_.before.rms,
                      1e3 * d_.heldout_before.rms, 1e3 * d_.noise));
   }
 
-  /// Errors at the base's fit, and the fit again under them.
-  void fit_base(double precision = fine) {
-    errors_ = errors_at(*base_.study, base_.fit, refinement_.get(), options_.doubt);
-    base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections,
-                    &base_.fit, {}, precision);
-    const Projection projection(base_.fit, errors_.covariance);
+  /// The errors at a fit, and the fit under them. Forces that made up for the mesh go back once it
+  /// is corrected, and its error with them.
+  void settle(Study& study, const SharedPrior& shared, JointFit& f, Errors& errors) {
+    for (int times = 0; times < 2; ++times) {
+      errors = errors_at(study, f, refinement_.get(), options_.doubt);
+      f = fit(study, shared, &errors, {&f.conditions});
+      if (f.conditions.size() != study.size())
+        throw InputError("the model does not reach the conditions: " + f.message);
+      if (!refinement_ || refinement_->holds(study, f)) break;
+    }
+  }
+  void settle() {
+    settle(*base_.study, base_.shared, base_.fit, evidence_.fitted);
+    const Projection projection(base_.fit, evidence_.fitted.covariance);
     base_.chi_square = projection.chi_square(), base_.dof = projection.dof();
   }
-
-  Evidence evidence() const {
-    return {observations_,
-            errors_.covariance,
-            errors_.corrections,
-            heldout_study_ ? &heldout_errors_.covariance : nullptr,
-            heldout_errors_.corrections,
-            heldout_study_ ? &base_.heldout : nullptr};
-  }
+  void settle_heldout() { settle(*base_.heldout_study, {}, base_.heldout, evidence_.heldout); }
 
   /// Scores, refits and weighs; false when nothing more is to be named.
   bool search_once() {
     const auto started = Clock::now();
-    errors_.influences = influences_of(*base_.study, base_.fit);
-    const Projection projection(base_.fit, errors_.covariance);
+    const auto influences = influences_of(*base_.study, base_.fit);
+    const Projection projection(base_.fit, evidence_.fitted.covariance);
     const auto all = candidates(base_.description, observations_);
-    const auto scores = score(all, *base_.study, base_.fit, errors_.influences, projection);
+    const auto scores = score(all, *base_.study, base_.fit, influences, projection);
     Round round;
     round.seconds_scoring = since(started);
     if (d_.rounds.empty()) {
-      d_.map_before = d_.map_after = localise(*base_.study, base_.fit, errors_.matrix);
-      d_.hidden = hidden_force(*base_.study, errors_.influences, projection);
+      d_.map_before = d_.map_after = localise(*base_.study, base_.fit, evidence_.fitted.matrix);
+      d_.hidden = hidden_force(*base_.study, influences, projection);
     }
     round.chi_square = base_.chi_square, round.dof = base_.dof;
     const auto prior = log_prior(all);
@@ -122,17 +127,22 @@ class Search {
                                   scores[i].log_evidence + prior[scores[i].candidate], 0, ""});
     std::vector<size_t> refitted;
     double gained = 0;  // by the best refit, of log evidence
+    const Account* best_yet = nullptr;
     for (size_t i : worth_a_refit(all, scores, prior, options_.refits)) {
       Ranked& r = round.candidates[i];
       // What a straight line puts this far behind no refit brings to the front.
       if (scores[i].log_evidence < behind * gained) continue;
-      tell(fmt::format("  refitting {}", r.candidate.label()));
-      accounts[i] = refit(base_, r.candidate, scores[i], evidence());
+      tell(fmt::format("  refitting {} (score {:.1f})", r.candidate.label(), r.log_odds));
+      accounts[i] = refit(base_, r.candidate, scores[i], evidence_,
+                          best_yet ? best_yet->fit.value + hopeless : infinity);
       r.message = accounts[i].message;
       if (!accounts[i].fitted()) continue;
-      accounts[i].heldout = fit_heldout(accounts[i], evidence()).fit;
       r.refitted = true;
-      gained = std::max(gained, accounts[i].fit.log_evidence - base_.fit.log_evidence);
+      const double gain = accounts[i].fit.log_evidence - base_.fit.log_evidence;
+      r.log_odds = gain + prior[scores[i].candidate];
+      if (gain < gained - hopeless) continue;
+      fit_heldout(accounts[i], base_.heldout, evidence_);
+      if (gain > gained || !best_yet) gained = std::max(gain, gained), best_yet = &accounts[i];
       refitted.push_back(i);
       r.log_odds = odds(accounts[i]) + prior[scores[i].candidate];
       tell(fmt::format("    log odds {:.1f}, chi2 {:.0f} of {:.0f}", r.log_odds,
@@ -160,14 +170,16 @@ class Search {
   /// that has nothing to do with what it adds. True where the base got better by it.
   bool follow(const Account& better) {
     const double before = base_.fit.log_evidence + base_.heldout.log_evidence;
-    const JointFit again =
-        fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections, &better.fit);
-    if (again.converged && again.log_evidence > base_.fit.log_evidence) base_.fit = again;
-    if (heldout_study_ && better.heldout.converged) {
-      const JointFit h = fit(*heldout_study_, {}, &heldout_errors_.covariance,
-                             heldout_errors_.corrections, &better.heldout);
-      if (h.converged && h.log_evidence > base_.heldout.log_evidence) base_.heldout = h;
-    }
+    const auto try_from = [](Study& study, const SharedPrior& shared, const Errors& errors,
+                             const JointFit& start, JointFit& best) {
+      FitOptions options{&start.conditions};
+      options.hopeless = start.value + hopeless;
+      JointFit f = fit(study, shared, &errors, options);
+      if (f.converged && f.log_evidence > best.log_evidence) best = std::move(f);
+    };
+    try_from(*base_.study, base_.shared, evidence_.fitted, better.fit, base_.fit);
+    if (base_.heldout_study && better.heldout.converged)
+      try_from(*base_.heldout_study, {}, evidence_.heldout, better.heldout, base_.heldout);
     const double gain = base_.fit.log_evidence + base_.heldout.log_evidence - before;
     if (gain > 0) tell(fmt::format("  the model as it is does better from there: {:+.1f}", gain));
     return gain > 0;
@@ -186,30 +198,25 @@ class Search {
         rivals_.push_back({other.candidate.effect, other.candidate.where, other.probability,
                            cosine(other.score.direction, r.score.direction)});
     tell(fmt::format("  {}: probability {:.3f}", r.candidate.label(), confidence_.back()));
+    if (refinement_)
+      refinement_ = std::make_unique<Refinement>(
+          symmetric_part(with_fitted(account.description, account.fit), effects_), *refinement_);
     // The next round's unknown supports need their derivatives too.
     base_.description = account.description, base_.shared = account.shared;
     base_.study = std::make_shared<Study>(with_mobile_supports(base_.description), observations_,
                                           fitted_conditions(observations_));
-    base_.fit = fit(*base_.study, base_.shared, &errors_.covariance, errors_.corrections,
-                    &account.fit, {}, rough);
-    if (refinement_)
-      refinement_ =
-          std::make_unique<Refinement>(with_fitted(base_.description, base_.fit), *refinement_);
-    fit_base();
-    if (heldout_study_) {
-      HeldoutFit h = fit_heldout(base_, evidence());
-      if (h.fit.conditions.size() == base_.heldout.conditions.size()) {
-        heldout_study_ = h.study, base_.heldout = h.fit;
-        heldout_errors_ =
-            errors_at(*heldout_study_, base_.heldout, refinement_.get(), options_.doubt);
-        HeldoutFit again = fit_heldout(base_, evidence());
-        base_.heldout = again.fit, heldout_study_ = again.study;
-      }
-    }
+    base_.fit = fit(*base_.study, base_.shared, &evidence_.fitted, {&account.fit.conditions});
+    settle();
+    if (!base_.heldout_study) return;
+    fit_heldout(base_, account.heldout, evidence_);
+    evidence_.heldout =
+        errors_at(*base_.heldout_study, base_.heldout, refinement_.get(), options_.doubt);
+    fit_heldout(base_, base_.heldout, evidence_);
   }
 
   void decide() {
-    if (!effects_.empty()) d_.map_after = localise(*base_.study, base_.fit, errors_.matrix);
+    if (!effects_.empty())
+      d_.map_after = localise(*base_.study, base_.fit, evidence_.fitted.matrix);
     d_.after = gap_of(base_.fit, d_.noise), d_.heldout_after = gap_of(base_.heldout, d_.noise);
     d_.model = with_fitted(base_.description, base_.fit);
     d_.fit_tail = chi_square_tail(base_.chi_square / options_.doubt.dispersion, base_.dof);
@@ -257,8 +264,7 @@ class Search {
   ModelDescription found_;  // as given
   Account base_;
   std::unique_ptr<Refinement> refinement_;
-  Errors errors_, heldout_errors_;
-  std::shared_ptr<Study> heldout_study_;
+  Evidence evidence_;
   std::vector<Candidate> effects_;
   std::vector<double> confidence_;
   std::vector<Rival> rivals_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "discrepancy/joint_problem.hpp"
@@ -13,7 +14,10 @@ namespace {
 
 constexpr double interval = 1.645;  // standard deviations of a 90 % interval
 constexpr int most_steps = 25;
-constexpr int starts_alone = 2;  // of a condition inverted by itself
+// Of conditions inverted by themselves:
+constexpr int more_starts = 3;
+constexpr double much_worse = 1.4;  // than the median misfit
+constexpr double guess_tolerance = 0.02;
 
 std::vector<Eigen::Index> open_unknowns(const Vector& lower, const Vector& upper) {
   std::vector<Eigen::Index> open;
@@ -30,20 +34,42 @@ Vector expected(const PriorTerms& prior) {
   return z;
 }
 
-/// Where nothing is known of the forces, an inversion of the condition by itself instead.
-Vector first_guess(Study& study, size_t k, JointProblem::Part& part, Vector z) {
-  if (study.condition(k).forces) return z;
+/// An inversion of one condition by itself.
+Answer alone(Study& study, size_t k, int starts) {
   InferOptions options;
   options.bilateral = study.bilateral(k);
-  const Answer answer = infer_from_starts(study.model(k), study.condition(k).target, study.prior(k),
-                                          study.inferring(k), options, {starts_alone});
+  options.tolerance = guess_tolerance;
+  return infer_from_starts(study.model(k), study.condition(k).target, study.prior(k),
+                           study.inferring(k), options, {starts});
+}
+
+/// Inversions of the conditions of which no forces are known; empty answers for the others. One
+/// that fits much worse than the rest may sit in a wrong valley and gets more starts.
+std::vector<Answer> each_alone(Study& study) {
+  std::vector<Answer> result(study.size());
+  std::vector<double> rms;
+  for (size_t k = 0; k < study.size(); ++k) {
+    if (study.condition(k).forces) continue;
+    result[k] = alone(study, k, 1);
+    if (result[k].activations.size() > 0) rms.push_back(result[k].rms);
+  }
+  if (rms.empty()) return result;
+  std::nth_element(rms.begin(), rms.begin() + long(rms.size() / 2), rms.end());
+  for (size_t k = 0; k < study.size(); ++k)
+    if (!study.condition(k).forces &&
+        (result[k].activations.size() == 0 || result[k].rms > much_worse * rms[rms.size() / 2]))
+      result[k] = alone(study, k, more_starts);
+  return result;
+}
+
+/// The unknowns of a part as an inversion by itself has them.
+Vector guessed(Study& study, size_t k, const Answer& answer, JointProblem::Part& part, Vector z) {
   if (answer.activations.size() == 0) return z;
-  const auto alone = unknowns(study.model(k), study.prior(k), study.bilateral(k));
+  const auto own = unknowns(study.model(k), study.prior(k), study.bilateral(k));
   const auto& commands = part.objective.commands();
   for (size_t i = 0; i < commands.size(); ++i)
-    for (size_t j = 0; j < alone.size(); ++j)
-      if (alone[j].name == commands[i].name)
-        z[Eigen::Index(i)] = answer.activations[Eigen::Index(j)];
+    for (size_t j = 0; j < own.size(); ++j)
+      if (own[j].name == commands[i].name) z[Eigen::Index(i)] = answer.activations[Eigen::Index(j)];
   part.options.start_shape = answer.shape;
   return z;
 }
@@ -111,22 +137,23 @@ Matrix JointFit::jacobian() const {
   return j;
 }
 
-JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* covariance,
-             const Corrections& corrections, const JointFit* start,
-             const std::map<std::string, double>& shared_start, double precision) {
-  JointProblem problem(study, shared, covariance, corrections, start);
+JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
+             const FitOptions& options) {
+  JointProblem problem(study, shared, errors, options);
   JointFit f;
   f.lower = problem.lower(), f.upper = problem.upper(), f.own = problem.own();
   Vector u = Vector::Zero(f.lower.size());
+  const auto answers = options.start ? std::vector<Answer>() : each_alone(study);
   for (size_t k = 0; k < problem.size(); ++k) {
     auto& part = problem.part(k);
     const Vector z = expected(part.objective.prior());
-    u(part.which) = start
-                        ? start_of(start->conditions[k], part.objective.commands(), shared_start, z)
-                        : first_guess(study, k, part, z);
+    u(part.which) = options.start ? start_of((*options.start)[k], part.objective.commands(),
+                                             options.shared_start, z)
+                                  : guessed(study, k, answers[k], part, z);
   }
   u = u.cwiseMax(f.lower).cwiseMin(f.upper);
-  const DescentResult r = descend(problem, u, {most_steps, precision, {}});
+  const DescentResult r =
+      descend(problem, u, {most_steps, options.precision, {}, options.hopeless});
   f.converged = r.converged, f.message = r.message, f.iterations = r.iterations;
   if (r.u.size() == 0) return f;
   f.u = r.u, f.value = r.value;

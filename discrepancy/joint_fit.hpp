@@ -2,6 +2,7 @@
 // All conditions at once: commands of each, and model parameters that they share.
 
 #include <Eigen/Cholesky>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -53,12 +54,26 @@ struct JointFit {
 /// (empty: nothing).
 using Corrections = std::vector<Vector>;
 
-/// The unknowns that maximise the posterior under residuals of the given covariance (its factor;
-/// null: independent), by Ipopt from equilibrium to equilibrium (descend()). It starts where
-/// `start` ended, shared parameters that `start` has not at `shared_start` or what is believed of
-/// them; without, each condition is first inverted by itself. `precision`: of the log posterior.
-JointFit fit(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* covariance,
-             const Corrections& corrections, const JointFit* start = nullptr,
-             const std::map<std::string, double>& shared_start = {}, double precision = 0.03);
+/// Residuals of one set of conditions: how they may be off although nothing is missing.
+struct Errors {
+  Corrections corrections;
+  Matrix matrix;  ///< the covariance
+  Eigen::LLT<Matrix> covariance;
+};
+
+struct FitOptions {
+  /// Starts where these ended; null: each condition is first inverted by itself.
+  const std::vector<FittedCondition>* start = nullptr;
+  std::map<std::string, double> shared_start = {};  ///< of shared parameters, in their own unit
+  std::map<std::string, double> fixed = {};         ///< shared parameters that stay as they are
+  double precision = 0.1;                           ///< of the log posterior
+  /// Gives up once minus the log posterior does not come below this.
+  double hopeless = std::numeric_limits<double>::infinity();
+};
+
+/// The unknowns that maximise the posterior under the given errors (null: independent noise), by
+/// Ipopt from equilibrium to equilibrium (descend()).
+JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
+             const FitOptions& options = {});
 
 }  // namespace genio

@@ -57,25 +57,25 @@ class QuadraticModel final : public LocalModel {
   double value_ = 0;
 };
 
-InferOptions starting(const Study& study, size_t k, const JointFit* start) {
+InferOptions starting(const Study& study, size_t k, const FitOptions& fit) {
   InferOptions options;
   options.bilateral = study.bilateral(k);
-  if (start) options.start_shape = start->conditions[k].x;
+  if (fit.start) options.start_shape = (*fit.start)[k].x;
   return options;
 }
 
 }  // namespace
 
-JointProblem::JointProblem(Study& study, const SharedPrior& shared,
-                           const Eigen::LLT<Matrix>* covariance, const Corrections& corrections,
-                           const JointFit* start)
-    : covariance_(covariance) {
+JointProblem::JointProblem(Study& study, const SharedPrior& shared, const Errors* errors,
+                           const FitOptions& options)
+    : errors_(errors) {
+  const bool corrected = errors && !errors->corrections.empty();
   for (size_t k = 0; k < study.size(); ++k) {
     Prior prior = study.prior(k);
     prior.parameters = shared.parameters;
     if (shared.head_pose) prior.head_pose = shared.head_pose;
-    parts_.push_back(std::make_unique<Part>(study, k, prior, starting(study, k, start),
-                                            corrections.empty() ? Vector() : corrections[k]));
+    parts_.push_back(std::make_unique<Part>(study, k, prior, starting(study, k, options),
+                                            corrected ? errors->corrections[k] : Vector()));
     const bool pose_is_shared = shared.head_pose.has_value();
     for (const Command& c : parts_.back()->objective.commands())
       parts_.back()->which.push_back(c.kind == Command::Kind::parameter ||
@@ -84,6 +84,20 @@ JointProblem::JointProblem(Study& study, const SharedPrior& shared,
                                          : own_++);
   }
   number_unknowns();
+  fix(options.fixed);
+}
+
+/// Shared unknowns that stay; what is believed of them does not matter any more.
+void JointProblem::fix(const std::map<std::string, double>& values) {
+  const auto& commands = parts_.front()->objective.commands();
+  for (size_t i = 0; i < commands.size(); ++i) {
+    const auto at = values.find(commands[i].name);
+    const Eigen::Index u = parts_.front()->which[i];
+    if (at == values.end() || u < own_) continue;
+    lower_[u] = upper_[u] = at->second / commands[i].scale;
+    for (Eigen::Index r = 0; r < rows_.rows(); ++r)
+      if (rows_(r, u) != 0) rows_.row(r).setZero(), values_[r] = 0;
+  }
 }
 
 void JointProblem::number_unknowns() {
@@ -121,7 +135,7 @@ void JointProblem::number_unknowns() {
 }
 
 Matrix JointProblem::whitened(const Matrix& m) const {
-  return covariance_ ? Matrix(covariance_->matrixL().solve(m)) : m;
+  return errors_ ? Matrix(errors_->covariance.matrixL().solve(m)) : m;
 }
 
 Vector stacked(const std::vector<Vector>& parts) {

@@ -29,8 +29,8 @@ class JointProblem final : public MisfitProblem {
     std::vector<int> which;
   };
 
-  JointProblem(Study& study, const SharedPrior& shared, const Eigen::LLT<Matrix>* covariance,
-               const Corrections& corrections, const JointFit* start);
+  JointProblem(Study& study, const SharedPrior& shared, const Errors* errors,
+               const FitOptions& options);
 
   const Vector& lower() const override { return lower_; }
   const Vector& upper() const override { return upper_; }
@@ -52,8 +52,9 @@ class JointProblem final : public MisfitProblem {
 
  private:
   void number_unknowns();
+  void fix(const std::map<std::string, double>& values);
 
-  const Eigen::LLT<Matrix>* covariance_;
+  const Errors* errors_;
   std::vector<std::unique_ptr<Part>> parts_;
   int own_ = 0;
   Vector lower_, upper_, values_;

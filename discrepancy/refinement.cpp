@@ -7,7 +7,8 @@
 namespace genio {
 namespace {
 
-constexpr double tolerance = 1e-4;
+constexpr double tolerance = 1e-3;
+constexpr double nearby = 1e-3;  // of any node, between shapes of one correction [m]
 
 /// Parameters of the condition by name, those of left and right evened out where `even`.
 Parameters evened(const Model& to, const Model& from, const Parameters& p, bool even) {
@@ -66,6 +67,38 @@ Refinement::Tongues::Tongues(const ModelDescription& d)
   if (mirror) node = nodes_of(fine.mesh, whole.mesh);
 }
 
+Refinement::Refinement(ModelDescription description, const Refinement& before)
+    : description_(std::move(description)),
+      observations_(before.observations_),
+      known_(before.known_) {
+  for (auto& [condition, k] : known_) k.fitted.resize(0);
+}
+
+bool Refinement::holds(const FittedCondition& c, size_t condition) const {
+  const auto k = known_.find(condition);
+  return k != known_.end() && k->second.fitted.size() == c.x.size() &&
+         k->second.correction.size() == c.residuals.values.size() &&
+         (k->second.fitted - c.x).cwiseAbs().maxCoeff() < nearby;
+}
+
+bool Refinement::holds(const Study& study, const JointFit& fit) const {
+  for (size_t k = 0; k < fit.conditions.size(); ++k)
+    if (!holds(fit.conditions[k], study.members()[k])) return false;
+  return true;
+}
+
+Positions Refinement::nearest_fine(const Tongues& t, const Positions& rest,
+                                   const Positions& coarse) const {
+  const Positions* nearest = &t.fine.rest;
+  double least = (coarse - rest).cwiseAbs().maxCoeff();
+  for (const auto& [condition, k] : known_) {
+    if (k.fine.size() != t.fine.rest.size()) continue;
+    const double far = (k.coarse - coarse).cwiseAbs().maxCoeff();
+    if (far < least) least = far, nearest = &k.fine;
+  }
+  return *nearest;
+}
+
 Vector Refinement::correction(const Model& fitted, const FittedCondition& c, size_t condition) {
   const Condition& seen = observations_.conditions[condition];
   auto& made = tongues_[seen.effects];
@@ -79,14 +112,12 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c, siz
   if (!rough) return none;
   const Model& near = t.mirror ? t.mirror->half : t.coarse;
   const Positions start = t.mirror ? Positions(t.mirror->right_half(rough.x)) : rough.x;
-  Positions& fine_start = latest_[condition];
-  if (fine_start.size() != t.fine.rest.size())
-    fine_start = prolonged(near.mesh, near.description->supports, start);
   const Equilibrium smooth = solve_equilibrium(
       t.fine, t.mirror ? halved(t.fine, t.coarse, p) : evened(t.fine, t.coarse, p, false),
-      fine_start, t.fine_workspace, options);
+      nearest_fine(t, near.rest, start), t.fine_workspace, options);
   if (!smooth) return none;
-  fine_start = smooth.x;
+  Known& known = known_[condition];
+  known.coarse = start, known.fine = smooth.x, known.fitted = c.x;
   Positions x = smooth.x;
   if (t.mirror) {
     x.resize(t.whole.rest.size());
@@ -97,14 +128,18 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c, siz
   }
   const HeadPose pose = head_pose(c.commands, c.z);
   const Target& target = seen.target;
-  return Comparison(t.whole, target)(x, pose).values -
-         Comparison(t.coarse, target)(rough.x, pose).values;
+  return known.correction = Comparison(t.whole, target)(x, pose).values -
+                            Comparison(t.coarse, target)(rough.x, pose).values;
 }
 
 Corrections Refinement::corrections(const Study& study, const JointFit& fit) {
   Corrections result;
-  for (size_t k = 0; k < fit.conditions.size(); ++k)
-    result.push_back(correction(study.model(k), fit.conditions[k], study.members()[k]));
+  for (size_t k = 0; k < fit.conditions.size(); ++k) {
+    const size_t condition = study.members()[k];
+    result.push_back(holds(fit.conditions[k], condition)
+                         ? known_.at(condition).correction
+                         : correction(study.model(k), fit.conditions[k], condition));
+  }
   return result;
 }
 

@@ -32,7 +32,7 @@ std::vector<double> log_prior(const std::vector<Candidate>& candidates) {
 }
 
 Account refit(const Account& base, const Candidate& candidate, const Score& score,
-              const Evidence& evidence) {
+              const Evidence& evidence, double hopeless) {
   Account a;
   a.shared = base.shared;
   a.description = base.description;
@@ -54,13 +54,15 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
   try {
     a.study = std::make_shared<Study>(a.description, evidence.observations,
                                       fitted_conditions(evidence.observations));
-    a.fit = fit(*a.study, a.shared, &evidence.covariance, evidence.corrections, &base.fit, start);
+    FitOptions options{&base.fit.conditions, start};
+    options.hopeless = hopeless;
+    a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
     a.message = a.fit.message;
   } catch (const InputError& e) {
     a.message = e.what();
   }
   if (a.fitted()) {
-    const Projection projection(a.fit, evidence.covariance);
+    const Projection projection(a.fit, evidence.fitted.covariance);
     a.chi_square = projection.chi_square(), a.dof = projection.dof();
   }
   return a;
@@ -79,23 +81,19 @@ ModelDescription with_fitted(ModelDescription d, const JointFit& fit) {
   return d;
 }
 
-HeldoutFit fit_heldout(const Account& account, const Evidence& evidence) {
-  HeldoutFit h;
+void fit_heldout(Account& a, const JointFit& start, const Evidence& evidence) {
   const auto members = heldout_conditions(evidence.observations);
-  if (members.empty()) return h;
-  h.study = std::make_shared<Study>(with_fitted(account.description, account.fit),
-                                    evidence.observations, members);
-  // A head pose that all data were laid with is no parameter of the model: it stays as fitted.
+  if (members.empty()) return;
+  a.heldout_study =
+      std::make_shared<Study>(with_fitted(a.description, a.fit), evidence.observations, members);
+  // A head pose that all data were laid with is no parameter of the model, but as little free.
   SharedPrior shared;
-  std::map<std::string, double> start;
-  if (account.shared.head_pose) {
-    shared.head_pose = account.shared.head_pose;
-    for (const SharedEstimate& e : account.fit.shared)
-      if (e.name.starts_with("head_pose")) start[e.name] = e.value;
-  }
-  h.fit = fit(*h.study, shared, evidence.heldout_covariance, evidence.heldout_corrections,
-              evidence.heldout_start, start);
-  return h;
+  FitOptions options{&start.conditions};
+  shared.head_pose = a.shared.head_pose;
+  for (const SharedEstimate& e : a.fit.shared)
+    if (a.shared.head_pose && e.name.starts_with("head_pose")) options.fixed[e.name] = e.value;
+  options.shared_start = options.fixed;
+  a.heldout = fit(*a.heldout_study, shared, &evidence.heldout, options);
 }
 
 }  // namespace genio

@@ -12,34 +12,28 @@ struct Account {
   std::shared_ptr<Study> study;  ///< of the fitted conditions
   JointFit fit;
   double chi_square = 0, dof = 0;  ///< of the residuals
-  JointFit heldout;                ///< conditions held out, its parameters as fitted
-  std::string message;             ///< why it could not be fitted
+  std::shared_ptr<Study> heldout_study;
+  JointFit heldout;     ///< conditions held out, its parameters as fitted
+  std::string message;  ///< why it could not be fitted
 
   bool fitted() const { return fit.converged; }
-};
-
-struct HeldoutFit {
-  std::shared_ptr<Study> study;
-  JointFit fit;
 };
 
 /// What selection needs of the data beside the candidates.
 struct Evidence {
   const Observations& observations;
-  const Eigen::LLT<Matrix>& covariance;  ///< of the fitted conditions' residuals
-  const Corrections& corrections;
-  const Eigen::LLT<Matrix>* heldout_covariance;  ///< null: none held out
-  const Corrections& heldout_corrections;
-  const JointFit* heldout_start;
+  Errors fitted, heldout;  ///< of the conditions to fit, and of those held out
 };
 
 /// The base account with one candidate more: its strengths shared by all conditions, from the
-/// score's estimate on; a switch at its typical strength.
+/// score's estimate on; a switch at its typical strength. It gives up once minus the log posterior
+/// does not come below `hopeless`.
 Account refit(const Account& base, const Candidate& candidate, const Score& score,
-              const Evidence& evidence);
+              const Evidence& evidence, double hopeless);
 
-/// The held-out conditions under an account, its shared parameters at their fitted values.
-HeldoutFit fit_heldout(const Account& account, const Evidence& evidence);
+/// Fits the held-out conditions under an account, its shared parameters at their fitted values,
+/// from where `start` ended. Nothing where none are held out.
+void fit_heldout(Account& account, const JointFit& start, const Evidence& evidence);
 
 /// Where shared parameters stand in a description: fitted values written into its effects.
 ModelDescription with_fitted(ModelDescription description, const JointFit& fit);

@@ -26,6 +26,7 @@
 #include "forward/effects/weak_muscle.hpp"
 #include "forward/nearest_name.hpp"
 #include "forward/places.hpp"
+#include "forward/surface_field.hpp"
 
 namespace genio {
 namespace {
@@ -40,21 +41,7 @@ struct EffectKind {
   Places places = nullptr;  ///< where it may be, where that needs saying
 };
 
-constexpr double field_spacing = 2e-3;    // [m]
 constexpr double deepest_overlap = 2e-3;  // at rest [m]
-constexpr double field_reach = 0.02;      // how far from its rest shape the tongue can touch [m]
-
-std::shared_ptr<const DistanceField> distance_field(const TriangleSurface& surface,
-                                                    const HexMesh& mesh) {
-  Vec3 low = mesh.nodes[0], high = low, s_low = surface.vertices[0], s_high = s_low;
-  for (const Vec3& x : mesh.nodes) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  for (const Vec3& x : surface.vertices) s_low = s_low.cwiseMin(x), s_high = s_high.cwiseMax(x);
-  const Vec3 reach = Vec3::Constant(field_reach);
-  low = (low - reach).cwiseMax(s_low - 0.5 * reach);
-  high = (high + reach).cwiseMin(s_high + 0.5 * reach);
-  high = high.cwiseMax(low + Vec3::Constant(4 * field_spacing));
-  return std::make_shared<DistanceField>(surface, low, high, field_spacing, mesh.nodes);
-}
 
 std::vector<int> nodes_with(const Anatomy& a, Support support) {
   std::vector<int> nodes;
@@ -73,7 +60,7 @@ Made contact(Settings& s, const Anatomy& a, const std::string& name,
     throw InputError(fmt::format("{}: [effect.{}] needs a surface '{}' in [surfaces]", a.source,
                                  name, name.substr(0, name.find('_'))));
   const double stiffness = s.take("stiffness", 2e8), damping = s.take("damping", 0);
-  const auto field = distance_field(*surface, d.mesh);
+  const auto field = field_about(*surface, d.mesh);
   const auto area = nodal_areas(d.mesh, outer_faces(d.mesh, a.supports));
   std::vector<ContactNode> nodes;
   for (size_t n = 0; n < area.size(); ++n) {

@@ -14,6 +14,7 @@ constexpr double on_bound = 1e-4;    // of an unknown
 constexpr size_t patience = 4;       // iterations
 constexpr double little = 1e-3;      // progress in them, of the objective and of its unit
 constexpr double worth_trying = 30;  // times the tolerance
+constexpr double hope = 2;           // times what a step promises
 
 /// The minimum of the local problem within `trust` of its anchor, unknowns that their bounds press
 /// on put there.
@@ -65,6 +66,8 @@ DescentResult descend(MisfitProblem& problem, const Vector& start, const Descent
     Vector u = minimum(*local, problem, trust, result.solver_iterations);
     double promise = result.value - at(*local, u);
     if (promise < options.tolerance) return result.converged = true, result;
+    if (result.iterations > 0 && result.value - hope * promise > options.hopeless)
+      return failed("far behind");
     // Where the tongue just touches bone the objective has kinks, and a smooth model promises what
     // is not there.
     values.push_back(result.value);

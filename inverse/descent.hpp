@@ -2,6 +2,7 @@
 // Minimising a misfit whose every evaluation is an equilibrium.
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,9 @@ class MisfitProblem {
 struct DescentOptions {
   int max_iterations = 60;
   double tolerance = 1e-4;  ///< of the fall of the objective still to be had
-  std::function<void(int iteration, double rms)> progress;
+  std::function<void(int iteration, double rms)> progress = {};
+  /// Gives up once even twice what the next step promises would leave the objective above this.
+  double hopeless = std::numeric_limits<double>::infinity();
 };
 
 struct DescentResult {

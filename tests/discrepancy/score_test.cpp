@@ -15,12 +15,13 @@ class Scores : public test::PosedTongue {
     observations = observed(truth, true);
     study = std::make_unique<Study>(with_mobile_supports(tongue), observations,
                                     fitted_conditions(observations));
-    f = fit(*study, {}, nullptr, {});
+    f = fit(*study, {}, nullptr);
     ASSERT_TRUE(f.converged) << f.message;
     influences.clear();
     for (size_t k = 0; k < study->size(); ++k) influences.push_back(influence(*study, f, k));
-    covariance.compute(residual_covariance(*study, f, influences, {}, {}));
-    f = fit(*study, {}, &covariance, {}, &f);
+    errors.matrix = residual_covariance(*study, f, influences, {}, {});
+    errors.covariance.compute(errors.matrix);
+    f = fit(*study, {}, &errors, {&f.conditions});
     ASSERT_TRUE(f.converged) << f.message;
     influences.clear();
     for (size_t k = 0; k < study->size(); ++k) influences.push_back(influence(*study, f, k));
@@ -30,7 +31,7 @@ class Scores : public test::PosedTongue {
   std::unique_ptr<Study> study;
   JointFit f;
   std::vector<Matrix> influences;
-  Eigen::LLT<Matrix> covariance;
+  Errors errors;
   std::vector<Candidate> all;
 };
 
@@ -68,14 +69,14 @@ TEST_F(Scores, SignatureIsTheDerivativeOfTheResiduals) {
 TEST_F(Scores, NothingHiddenScoresLowAndAHiddenEffectHighest) {
   look_at(tongue);
   {
-    const Projection projection(f, covariance);
+    const Projection projection(f, errors.covariance);
     const auto scores = score(all, *study, f, influences, projection);
     EXPECT_LT(scores.front().log_evidence, 1);
   }
   ModelDescription truth = tongue;
   truth.effects["airway_pressure"] = {{"pressure", 400}};
   look_at(truth);
-  const Projection projection(f, covariance);
+  const Projection projection(f, errors.covariance);
   const auto scores = score(all, *study, f, influences, projection);
   EXPECT_EQ(all[scores.front().candidate].effect, "airway_pressure");
   EXPECT_NEAR(scores.front().estimate[0], 400, 100);
@@ -84,13 +85,13 @@ TEST_F(Scores, NothingHiddenScoresLowAndAHiddenEffectHighest) {
 
 TEST_F(Scores, ProjectionTakesAwayWhatTheUnknownsCanDo) {
   look_at(tongue);
-  const Projection projection(f, covariance);
+  const Projection projection(f, errors.covariance);
   const Matrix p = projection(f.jacobian());
   // What is left of a tangent is what the prior holds back; twice is once.
   const Matrix r = projection(Matrix::Identity(f.jacobian().rows(), f.jacobian().rows()));
-  EXPECT_LE(p.norm(), Matrix(covariance.matrixL().solve(f.jacobian())).norm());
+  EXPECT_LE(p.norm(), Matrix(errors.covariance.matrixL().solve(f.jacobian())).norm());
   EXPECT_LE(r.colwise().norm().maxCoeff(),
-            Matrix(covariance.matrixL().solve(Matrix::Identity(r.cols(), r.cols())))
+            Matrix(errors.covariance.matrixL().solve(Matrix::Identity(r.cols(), r.cols())))
                     .colwise()
                     .norm()
                     .maxCoeff() *
