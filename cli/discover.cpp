@@ -1,9 +1,10 @@
+#include "discrepancy/discover.hpp"
+
 #include <fmt/format.h>
 
 #include <filesystem>
 
 #include "cli/commands.hpp"
-#include "discrepancy/discover.hpp"
 #include "report/discovery_page.hpp"
 #include "report/discovery_report.hpp"
 #include "report/svg.hpp"
@@ -51,13 +52,13 @@ int run(const Options& o) {
       model = o.out + "/model";
       write_description(d.model, model);
     }
-    write_text(o.out + "/discovery.json", to_json(d, model).dump(2) + "\n");
+    write_text(o.out + "/discovery.json", to_json(d, observations, model).dump(2) + "\n");
     const std::string maps = draw_maps(d, observations);
     write_text(o.out + "/maps.svg", maps);
     write_png(o.out + "/maps.png", maps, 1.5);
     write_text(o.out + "/discovery.html", discovery_page(d, observations, description.name));
   }
-  if (o.json) fmt::print("{}\n", to_json(d, model).dump());
+  if (o.json) fmt::print("{}\n", to_json(d, observations, model).dump());
   else print_table(d);
   return done;
 }

@@ -132,11 +132,15 @@ class Search {
       Ranked& r = round.candidates[i];
       // What a straight line puts this far behind no refit brings to the front.
       if (scores[i].log_evidence < behind * gained) continue;
-      tell(fmt::format("  refitting {} (score {:.1f})", r.candidate.label(), r.log_odds));
+      tell(fmt::format("  refitting {}, log odds {:.1f} by its score", r.candidate.label(),
+                       r.log_odds));
       accounts[i] = refit(base_, r.candidate, scores[i], evidence_,
                           best_yet ? best_yet->fit.value + hopeless : infinity);
       r.message = accounts[i].message;
-      if (!accounts[i].fitted()) continue;
+      if (!accounts[i].fitted()) {
+        tell(fmt::format("    given up: {}", r.message));
+        continue;
+      }
       r.refitted = true;
       const double gain = accounts[i].fit.log_evidence - base_.fit.log_evidence;
       r.log_odds = gain + prior[scores[i].candidate];
@@ -155,7 +159,7 @@ class Search {
       best = weigh(round, refitted);
     }
     const bool go_on = !refitted.empty() && round.nothing < options_.nothing;
-    if (go_on) accept(round, best, std::move(accounts[best]));
+    if (go_on) accept(round, best, accounts);
     d_.rounds.push_back(std::move(round));
     return go_on;
   }
@@ -185,7 +189,20 @@ class Search {
     return gain > 0;
   }
 
-  void accept(const Round& round, size_t best, Account account) {
+  /// A fitted account by itself.
+  static Explanation explanation_of(const Account& a) {
+    Explanation e{with_fitted(a.description, a.fit), {}};
+    for (const SharedEstimate& s : a.fit.shared) {
+      if (s.name == "head_pose.x") e.pose.shift[0] = s.value;
+      if (s.name == "head_pose.z") e.pose.shift[1] = s.value;
+      if (s.name == "head_pose.turn") e.pose.turn = s.value;
+    }
+    return e;
+  }
+
+  void accept(const Round& round, size_t best, const std::vector<Account>& accounts) {
+    const Account& account = accounts[best];
+    const Ranked* first = round.candidates.data();
     const Ranked& r = round.candidates[best];
     std::map<std::string, double> by_effect;
     for (const Ranked& other : round.candidates)
@@ -195,8 +212,11 @@ class Search {
     for (const Ranked& other : round.candidates)
       if (other.refitted && other.candidate.effect != r.candidate.effect &&
           other.probability > 0.01)
-        rivals_.push_back({other.candidate.effect, other.candidate.where, other.probability,
-                           cosine(other.score.direction, r.score.direction)});
+        rivals_.push_back(
+            {other.candidate.effect, other.candidate.where, other.probability,
+             cosine(other.score.direction, r.score.direction),
+             experiments(explanation_of(accounts[best]),
+                         explanation_of(accounts[size_t(&other - first)]), observations_)});
     tell(fmt::format("  {}: probability {:.3f}", r.candidate.label(), confidence_.back()));
     if (refinement_)
       refinement_ = std::make_unique<Refinement>(

@@ -3,6 +3,7 @@
 
 #include "discrepancy/localise.hpp"
 #include "discrepancy/score.hpp"
+#include "discrepancy/separation.hpp"
 
 namespace genio {
 
@@ -32,7 +33,8 @@ std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>
 struct Rival {
   std::string effect, where;
   double probability = 0;
-  double similarity = 0;  ///< cosine between its signature and the best one's
+  double similarity = 0;               ///< cosine between its signature and the best one's
+  std::vector<Experiment> apart = {};  ///< postures that would tell it from the best one
 };
 
 /// One candidate of one round, as scored and, for the best, as refitted.

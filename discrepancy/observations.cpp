@@ -1,5 +1,7 @@
 #include "discrepancy/observations.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
@@ -16,9 +18,10 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> condition_keys = {
     "name", "target", "frame", "forces_N", "force_sd_percent", "effects", "heldout"};
-const std::vector<std::string> file_keys = {
-    "noise_mm", "noise_correlation_mm", "force_sd_percent", "bilateral", "effort_sd", "head_pose",
-    "condition"};
+const std::vector<std::string> file_keys = {"noise_mm",         "noise_correlation_mm",
+                                            "force_sd_percent", "bilateral",
+                                            "effort_sd",        "head_pose",
+                                            "palate",           "condition"};
 
 double number_or(const TomlReader& file, const toml::table& in, const char* key, double fallback,
                  double least) {
@@ -58,15 +61,45 @@ std::map<std::string, Normal> known_forces(const TomlReader& file, const toml::t
   return forces;
 }
 
+/// Contour files of the conditions, each read and registered once.
+class ContourFiles {
+ public:
+  /// `palate`: trace of the same session, beside the observations; empty: none.
+  ContourFiles(const Model& model, std::string palate)
+      : model_(model), palate_(std::move(palate)) {}
+
+  struct Read {
+    ContourFile file;
+    Similarity to_model;  // of a file in axes of its own
+  };
+  const Read& operator()(const std::string& path) {
+    if (const auto known = read_.find(path); known != read_.end()) return known->second;
+    Read r{read_contours(path), {}};
+    if (!r.file.model_frame) {
+      if (palate_.empty())
+        throw InputError(path +
+                         ": these contours are not in the model's frame; name the palate trace of "
+                         "the same session by 'palate' in the observations file");
+      RegisteredFile registered = register_file(model_, std::move(r.file), palate_);
+      r = {std::move(registered.file), registered.registration.transform};
+    }
+    return read_.emplace(path, std::move(r)).first->second;
+  }
+
+ private:
+  const Model& model_;
+  std::string palate_;
+  std::map<std::string, Read> read_;
+};
+
+std::string beside(const TomlReader& file, const std::string& name) {
+  return (fs::path(file.path()).parent_path() / name).string();
+}
+
 Target read_target(const TomlReader& file, const toml::table& table, const Model& model,
-                   double noise) {
-  const std::string path =
-      (fs::path(file.path()).parent_path() / file.text(table, "target")).string();
-  const ContourFile contours = read_contours(path);
-  if (!contours.model_frame)
-    throw InputError(path +
-                     ": a target of an observations file must be in the model's frame; "
-                     "genio invert --out writes registered contours");
+                   double noise, ContourFiles& files) {
+  const std::string path = beside(file, file.text(table, "target"));
+  const auto& [contours, to_model] = files(path);
   const auto* node = table.get("frame");
   size_t index = 0;
   if (node) {
@@ -79,19 +112,21 @@ Target read_target(const TomlReader& file, const toml::table& table, const Model
     throw InputError(fmt::format("{}: {} frames; name one by 'frame' in {}", path,
                                  contours.frames.size(), file.path()));
   }
-  const Target target = make_target(model, contours.frames[index], noise);
-  if (target.empty()) throw InputError(path + ": the frame has no points");
+  const ContourFrame& frame = contours.frames[index];
+  const Target target =
+      make_target(model, contours.model_frame ? frame : registered(model, frame, to_model), noise);
+  if (target.empty()) throw InputError(fmt::format("{}: frame {} has no points", path, frame.number));
   return target;
 }
 
 Condition read_condition(const TomlReader& file, const toml::node& node, const Model& model,
-                         double noise, double sd_percent) {
+                         double noise, double sd_percent, ContourFiles& files) {
   if (!node.is_table()) file.fail(node, "a [[condition]] must be a table");
   const toml::table& table = *node.as_table();
   file.only(table, condition_keys);
   Condition c;
   c.name = file.text(table, "name");
-  c.target = read_target(file, table, model, noise);
+  c.target = read_target(file, table, model, noise, files);
   c.heldout = flag_or(file, table, "heldout", false);
   sd_percent = number_or(file, table, "force_sd_percent", sd_percent, 0);
   if (table.get("forces_N"))
@@ -158,8 +193,9 @@ Observations read_observations(const std::string& path, const Model& model) {
   const auto* list = root.get("condition");
   if (!list || !list->is_array() || list->as_array()->empty())
     throw InputError(path + ": no [[condition]]");
+  ContourFiles files(model, root.get("palate") ? beside(file, file.text(root, "palate")) : "");
   for (const toml::node& node : *list->as_array())
-    o.conditions.push_back(read_condition(file, node, model, o.noise, sd_percent));
+    o.conditions.push_back(read_condition(file, node, model, o.noise, sd_percent, files));
   if (std::all_of(o.conditions.begin(), o.conditions.end(),
                   [](const Condition& c) { return c.heldout; }))
     throw InputError(path + ": every condition is held out; some must be fitted");

@@ -42,7 +42,7 @@ ModelDescription symmetric_part(const ModelDescription& description,
     for (const FreeNumber& n : c.strengths)
       if (ModelDescription w = without({n}); is_symmetric(w)) return w;
     if (ModelDescription w = without(c.strengths); is_symmetric(w)) return w;
-    d = without(c.strengths);
+    d.effects.erase(c.effect);
   }
   return is_symmetric(d) ? d : description;
 }

@@ -214,8 +214,8 @@ const std::vector<EffectKind>& kinds() {
       {"jaw_opening",
        [](Settings& s, const Anatomy& a) -> Made {
          const JawMotion motion{jaw_hinge(s), s.take("angle", 0), s.take("slide", 0)};
-         return std::make_shared<JawOpening>(nodes_with(a, Support::led),
-                                             rest_positions(a.description.mesh), motion);
+         return std::make_shared<JawOpening>(nodes_with(a, Support::led), a.description.mesh,
+                                             motion);
        }},
       {"hyoid_mobility", hyoid_mobility},
       {"airway_pressure", airway_pressure},

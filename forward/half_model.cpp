@@ -80,6 +80,8 @@ ModelDescription half_of(const ModelDescription& whole, const std::string& sourc
       if (element[size_t(e)] >= 0) half.elements.push_back(element[size_t(e)]);
     const bool left = m.name.ends_with("_L");
     if (!half.fibres.empty() && !left) d.muscles.push_back(std::move(half));
+    if (left)  // what is said of it in other effects goes with it
+      for (auto& [name, table] : d.effects) table.erase(m.name);
   }
   for (int* landmark : {&d.landmarks.tip, &d.landmarks.dorsum, &d.landmarks.root})
     *landmark = number[size_t(*landmark)];

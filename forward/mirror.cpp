@@ -69,6 +69,16 @@ Parameters trial_parameters(const Model& m) {
   return p;
 }
 
+/// Forces but for those of contact, whose surfaces are compared by themselves: meshes of a palate
+/// are symmetric to less than their forces would tell.
+Forces force_of_tongue(const Model& m, const Positions& x, const Parameters& p) {
+  Forces f = Forces::Zero(x.size());
+  for (size_t e = 0; e < m.effects.size(); ++e)
+    if (!dynamic_cast<const Contact*>(m.effects[e].get()))
+      m.effects[e]->add_force(x, effect_parameters(m, p, int(e)), f);
+  return f;
+}
+
 /// What the tongue may touch is the same on both sides.
 bool symmetric_surfaces(const Model& m) {
   for (const auto& effect : m.effects) {
@@ -87,7 +97,7 @@ bool symmetric_surfaces(const Model& m) {
 
 /// The half's forces are the whole's: on the plane half of them, but across it.
 bool same_forces(const Model& half, const Mirror& mirror, const Positions& x, const Vector& f) {
-  const Forces g = force(half, mirror.right_half(x), trial_parameters(half));
+  const Forces g = force_of_tongue(half, mirror.right_half(x), trial_parameters(half));
   const double tolerance = same_force * f.cwiseAbs().maxCoeff();
   for (size_t a = 0; a < mirror.right.size(); ++a) {
     const int whole = mirror.right[a];
@@ -125,7 +135,7 @@ std::unique_ptr<const Mirror> mirror_of(const Model& m, const std::vector<std::s
   if (partner.empty()) return nullptr;
   const Positions x = trial_shape(m);
   const Parameters p = trial_parameters(m);
-  const Forces f = force(m, x, p);
+  const Forces f = force_of_tongue(m, x, p);
   if (!symmetric(f, partner, same_force * f.cwiseAbs().maxCoeff())) return nullptr;
   for (const std::string& name : names) {
     const int k[] = {parameter_index(m, name)};

@@ -1,5 +1,7 @@
 #include "forward/surface_field.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 #include <mutex>
 
@@ -26,6 +28,8 @@ std::shared_ptr<const DistanceField> made(const TriangleSurface& surface,
   low = (low - about).cwiseMax(s_low - 0.5 * about);
   high = (high + about).cwiseMin(s_high + 0.5 * about);
   high = high.cwiseMax(low + Vec3::Constant(4 * spacing));
+  // The same samples left and right, and for a tongue and for its half.
+  high[1] = spacing * std::ceil(std::max(high[1], -low[1]) / spacing), low[1] = -high[1];
   return std::make_shared<DistanceField>(surface, low, high, spacing, nodes);
 }
 

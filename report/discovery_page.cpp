@@ -57,12 +57,40 @@ std::string effects_part(const Discovery& d) {
     s += "</table>\n";
   }
   if (d.effects.empty()) s += "<p>No effect is named.</p>\n";
-  for (const Rival& r : d.alternatives)
+  for (const Rival& r : d.alternatives) {
     s += fmt::format(
         "<p>Or {}: probability {:.3f}; its signature is like the first one's by "
-        "{:.2f}.</p>\n",
+        "{:.2f}.",
         escaped(label(r.effect, r.where)), r.probability, r.similarity);
+    if (!r.apart.empty()) {
+      s += " To tell them apart, measure (expected log odds in brackets):";
+      for (const Experiment& e : r.apart)
+        s += fmt::format(" {} ({:.1f});", escaped(e.label()), e.log_odds);
+      s.back() = '.';
+    }
+    s += "</p>\n";
+  }
   return s;
+}
+
+/// How strong what was looked for would have to be for these data to show it.
+std::string detectable_part(const Round& round) {
+  std::string s = "<table><tr><th>candidate</th><th>seen nine times in ten from</th></tr>";
+  for (const Ranked& r : round.candidates) {
+    if (!r.score.visible) {
+      s += fmt::format("<tr><td>{}</td><td>never by these data</td></tr>\n",
+                       escaped(r.candidate.label()));
+      continue;
+    }
+    std::vector<std::string> from;
+    for (const FreeNumber& n : r.candidate.strengths)
+      from.push_back(fmt::format("{} {} {:.3g} {}", n.name,
+                                 r.candidate.strengths.size() > 1 ? "about" : "off by",
+                                 r.score.detectable * n.info.typical, n.info.unit));
+    s += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(r.candidate.label()),
+                     escaped(fmt::format("{}", fmt::join(from, " or "))));
+  }
+  return s + "</table>\n";
 }
 
 std::string patches_part(const Discovery& d, const Observations& o) {
@@ -144,6 +172,8 @@ std::string discovery_page(const Discovery& d, const Observations& o, const std:
         "probability that nothing (more) is missing {:.2g}.</p>\n{}",
         i + 1, d.rounds[i].chi_square, d.rounds[i].dof, d.rounds[i].nothing,
         draw_ranking(d.rounds[i], 14));
+  if (!d.rounds.empty())
+    s += "<h3>What these data could show</h3>\n" + detectable_part(d.rounds.back());
   s += fmt::format(
       "<h2>What changed</h2>\n<table><tr><th>gap, RMS</th><th>before [mm]</th><th>after [mm]</th>"
       "<th>before / noise</th><th>after / noise</th></tr>\n{}{}</table>\n<p>Noise {:.2f} mm; what "

@@ -15,12 +15,22 @@ Json effect_json(const NamedEffect& e) {
           {"sd", sd},         {"interval90", interval}, {"confidence", e.confidence}};
 }
 
+Json experiments_json(const std::vector<Experiment>& all) {
+  Json result = Json::array();
+  for (const Experiment& e : all)
+    result.push_back({{"posture", e.label()},
+                      {"forces_N", e.forces},
+                      {"pitch_deg", e.pitch},
+                      {"expected_log_odds", e.log_odds}});
+  return result;
+}
+
 Json triple(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-Json where_json(const Discovery& d) {
+Json where_json(const Discovery& d, const Observations& o) {
   Json patches = Json::array();
   for (const MapPatch& p : d.map_before.patches)
-    patches.push_back({{"condition", p.condition},
+    patches.push_back({{"condition", o.conditions[p.condition].name},
                        {"region", p.region},
                        {"mean_mm", 1e3 * p.mean},
                        {"points", p.points}});
@@ -55,14 +65,15 @@ Json round_json(const Round& round) {
 
 }  // namespace
 
-Json to_json(const Discovery& d, const std::string& model) {
+Json to_json(const Discovery& d, const Observations& o, const std::string& model) {
   Json effects = Json::array(), alternatives = Json::array(), rounds = Json::array();
   for (const NamedEffect& e : d.effects) effects.push_back(effect_json(e));
   for (const Rival& r : d.alternatives)
     alternatives.push_back({{"name", r.effect},
                             {"where", r.where},
                             {"probability", r.probability},
-                            {"similarity", r.similarity}});
+                            {"similarity", r.similarity},
+                            {"experiments", experiments_json(r.apart)}});
   for (const Round& r : d.rounds) rounds.push_back(round_json(r));
   return {{"verdict", to_string(d.finding)},
           {"message", d.message},
@@ -75,7 +86,7 @@ Json to_json(const Discovery& d, const std::string& model) {
           {"noise_mm", 1e3 * d.noise},
           {"fit_p", d.fit_tail},
           {"model", model.empty() ? Json() : Json(model)},
-          {"where", where_json(d)},
+          {"where", where_json(d, o)},
           {"hidden_force",
            {{"log_evidence", d.hidden.log_evidence},
             {"total_N", d.hidden.total},

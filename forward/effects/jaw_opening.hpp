@@ -3,17 +3,19 @@
 
 #include "forward/effects/effect.hpp"
 #include "forward/jaw_motion.hpp"
+#include "forward/mesh.hpp"
 
 namespace genio {
 
 /// The jaw opens: every node that is fixed to it is led along its JawMotion.
 ///
-/// E = 1/2 k sum_a |x_a - X_a(angle, slide)|^2 with k = 1e5 N/m a node, stiff enough to stay within
-/// some micrometres of the path, so that the path is a parameter like any other.
+/// E = 1/2 sum_a k_a |x_a - X_a(angle, slide)|^2 with k_a = 2.5e4 N/m for every element at node a
+/// (half of them on the plane of half a tongue), stiff enough to stay within some micrometres of the
+/// path, so that the path is a parameter like any other.
 /// Parameters: angle [deg], slide [m].
 class JawOpening final : public Effect {
  public:
-  JawOpening(std::vector<int> nodes, const Positions& rest, const JawMotion& motion);
+  JawOpening(std::vector<int> nodes, const HexMesh& mesh, const JawMotion& motion);
 
   std::string_view name() const override { return "jaw_opening"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
@@ -27,6 +29,7 @@ class JawOpening final : public Effect {
   JawMotion motion(EffectParameters p) const { return {hinge_, p[0], p[1]}; }
 
   std::vector<int> nodes_;
+  std::vector<double> springs_;  // of each [N/m]
   Positions rest_;
   Vec3 hinge_;
   std::array<ParameterInfo, 2> info_;

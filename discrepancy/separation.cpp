@@ -1,0 +1,137 @@
+#include "discrepancy/separation.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "discrepancy/error_model.hpp"
+#include "discrepancy/study.hpp"
+#include "forward/sensitivity.hpp"
+#include "inverse/curvature.hpp"
+#include "inverse/moved_target.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double command = 0.15;  // activation of a muscle by itself
+constexpr int line_points = 30;
+constexpr double near_zero = 1e-4;  // activation of a muscle known to rest
+
+/// A tongue under one account, in one orientation.
+struct Tongue {
+  explicit Tongue(const ModelDescription& d) : model(build_model(d, d.name)), workspace(model) {}
+  Equilibrium posed(const std::map<std::string, double>& forces) {
+    Parameters p = default_parameters(model);
+    for (const auto& [name, f] : forces) set_command(model, name, f, p);
+    return solve_equilibrium(model, p, model.rest, workspace);
+  }
+  Model model;
+  Workspace workspace;
+};
+
+/// Nodes of the surface that come nearest to the observed points.
+std::vector<int> seen_nodes(const Model& m, const Condition& condition) {
+  std::vector<int> nodes;
+  for (const SurfacePoint& s : condition.target.surface) {
+    int nearest = -1;
+    double least = 0;
+    for (const Quad& q : m.surface)
+      for (int a : q) {
+        const double d = (m.mesh.nodes[size_t(a)] - s.position).squaredNorm();
+        if (nearest < 0 || d < least) nearest = a, least = d;
+      }
+    nodes.push_back(nearest);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+/// What would be measured of a posture.
+Target measured(const Model& m, const Positions& x, const HeadPose& laid,
+                const std::vector<int>& nodes, double sigma) {
+  Target t = curve_target(m, x, line_points, sigma);
+  for (int a : nodes) t.surface.push_back({node_position(x, a), sigma, a});
+  // Data that need a pose lie moved the other way.
+  const HeadPose moved{-laid.shift, -laid.turn};
+  const Vec2 middle = t.middle();
+  const MovedTarget move(moved, middle);
+  for (CurvePoint& c : t.curve) c.position = move(c.position);
+  for (SurfacePoint& s : t.surface) s.position = move(s.position);
+  return t;
+}
+
+/// Half the squared difference of the shapes that no command of the posture makes up for; negative
+/// where there is none.
+double difference(Tongue& a, const HeadPose& a_laid, Tongue& b, const HeadPose& b_laid,
+                  const Experiment& e, const Observations& o, const std::vector<int>& nodes,
+                  bool forces_known) {
+  const Equilibrium x = a.posed(e.forces), y = b.posed(e.forces);
+  if (!x || !y) return -1;
+  const Target target = measured(b.model, y.x, b_laid, nodes, o.noise);
+  const Residuals r = Comparison(a.model, target)(x.x, a_laid);
+  const auto commands = muscle_commands(a.model, o.bilateral && !forces_known);
+  const Matrix solved = sensitivity_to_forces(
+      a.model, x, command_pulls(a.model, commands, x.x, x.parameters), a.workspace);
+  if (solved.size() == 0) return -1;
+  const Eigen::LLT<Matrix> noise(noise_covariance(target, r, o.noise_correlation));
+  const Matrix j = noise.matrixL().solve(residual_jacobian(r, solved));
+  const Vector values = noise.matrixL().solve(r.values);
+  Matrix h = j.transpose() * j;
+  for (size_t i = 0; i < commands.size(); ++i) {
+    double sd = o.effort_sd;
+    if (forces_known) {
+      sd = near_zero;
+      for (int k : commands[i].parameters)
+        sd = std::max(sd, 0.1 * x.parameters[k] / commands[i].scale);
+    }
+    h(Eigen::Index(i), Eigen::Index(i)) += 1 / (sd * sd);
+  }
+  const Vector slope = j.transpose() * values;
+  return 0.5 * (values.squaredNorm() - slope.dot(h.llt().solve(slope)));
+}
+
+ModelDescription tilted(ModelDescription d, double pitch) {
+  if (pitch == 0 || !d.effects.contains("gravity")) return d;
+  return with_parameter(std::move(d), "gravity.pitch", pitch);
+}
+
+}  // namespace
+
+std::string Experiment::label() const {
+  std::string s;
+  for (const auto& [name, f] : forces)
+    s += fmt::format("{}{} {:.2g} N", s.empty() ? "" : ", ", name, f);
+  if (s.empty()) s = "at rest";
+  if (pitch > 0) s += ", lying on the back";
+  if (pitch < 0) s += ", lying on the face";
+  return s;
+}
+
+std::vector<Experiment> experiments(const Explanation& one, const Explanation& other,
+                                    const Observations& o, size_t most) {
+  const Condition& first = o.conditions.front();
+  const bool known = first.forces.has_value();
+  const bool weight =
+      one.model.effects.contains("gravity") || other.model.effects.contains("gravity");
+  std::vector<Experiment> all;
+  for (double pitch : weight ? std::vector{0.0, 90.0, -90.0} : std::vector{0.0}) {
+    Tongue a(tilted(one.model, pitch)), b(tilted(other.model, pitch));
+    const std::vector<int> nodes = seen_nodes(a.model, first);
+    const auto add = [&](Experiment e) {
+      e.pitch = pitch;
+      e.log_odds = difference(a, one.pose, b, other.pose, e, o, nodes, known);
+      all.push_back(std::move(e));
+    };
+    add({});
+    for (const Command& c : muscle_commands(a.model, true)) add({{{c.name, command * c.scale}}});
+  }
+  std::erase_if(all, [](const Experiment& e) { return e.log_odds < 0; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.log_odds > b.log_odds; });
+  if (all.size() > most) all.resize(most);
+  return all;
+}
+
+}  // namespace genio

@@ -1,0 +1,44 @@
+// Accounts of the same data are told apart by postures in which they differ.
+
+#include "discrepancy/separation.hpp"
+
+#include "tests/discrepancy/posed_tongue.hpp"
+
+namespace genio {
+namespace {
+
+class Separation : public test::PosedTongue {
+ protected:
+  ModelDescription heavy() const {
+    ModelDescription d = tongue;
+    d.effects["gravity"] = {{"x", 0}, {"y", 0}, {"z", -5}};
+    return d;
+  }
+};
+
+TEST_F(Separation, AnAccountIsNotToldFromItself) {
+  for (const Experiment& e : experiments({tongue, {}}, {tongue, {}}, observed(tongue, true)))
+    EXPECT_LT(e.log_odds, 1e-2) << e.label();
+}
+
+TEST_F(Separation, LyingDownTellsWeightFromAWrongPose) {
+  // A pose that makes up for what the weight does to the tongue at rest.
+  HeadPose pose;
+  pose.shift = Vec2(0, -5e-4);
+  const auto best = experiments({heavy(), {}}, {tongue, pose}, observed(tongue, true), 100);
+  ASSERT_FALSE(best.empty());
+  EXPECT_NE(best.front().pitch, 0) << best.front().label();
+  for (size_t i = 1; i < best.size(); ++i) EXPECT_LE(best[i].log_odds, best[i - 1].log_odds);
+}
+
+TEST_F(Separation, WithoutGravityNobodyLiesDown) {
+  ModelDescription open = tongue;
+  open.effects["jaw_opening"] = {{"angle", 3}};
+  for (const Experiment& e : experiments({tongue, {}}, {open, {}}, observed(tongue, false))) {
+    EXPECT_EQ(e.pitch, 0);
+    EXPECT_GT(e.log_odds, 0);
+  }
+}
+
+}  // namespace
+}  // namespace genio
