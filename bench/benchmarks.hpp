@@ -59,6 +59,10 @@ Json peer(const std::string& folder, const Progress& progress);
 /// A 200 ms gesture with two targets inverted with its inertia, over the time of its simulation.
 Json gesture(const Model& model, const Progress& progress);
 
+/// The Grenoble tongue in postures that CalculiX makes with gravity, seen with noise; what the
+/// discovery says of a model without gravity.
+Json grenoble_gravity(const std::string& folder, const Progress& progress);
+
 /// The Grenoble tongue of `folder` under GGP and HG: without contact against an independent static
 /// solution of the same problem, with contact beside the seed paper's printed figures.
 Json grenoble(const std::string& folder, const Progress& progress);

@@ -94,8 +94,13 @@ void write_input(const std::string& path, const CalculixProblem& p) {
   else out.print("*STATIC\n0.1,1.\n");
   const double size = p.force.norm();
   const Vec3 d = p.force / size;
-  out.print("*DLOAD\nLOADED,GRAV,{:.9g},{:.9g},{:.9g},{:.9g}\n", size / p.density, d[0], d[1],
-            d[2]);
+  if (size > 0)
+    out.print("*DLOAD\nLOADED,GRAV,{:.9g},{:.9g},{:.9g},{:.9g}\n", size / p.density, d[0], d[1],
+              d[2]);
+  if (!p.nodal.empty()) out.print("*CLOAD\n");
+  for (size_t a = 0; a < p.nodal.size(); ++a)
+    for (int i = 0; i < 3; ++i)
+      if (p.nodal[a][i] != 0) out.print("{},{},{:.9g}\n", a + 1, i + 1, p.nodal[a][i]);
   out.print("*NODE PRINT,NSET=ALL,FREQUENCY=1000\nU\n*END STEP\n");
 }
 

@@ -19,6 +19,7 @@ struct CalculixProblem {
   std::vector<int> loaded;  ///< elements that the body force acts on
   Vec3 force;               ///< per volume [N/m^3]
   CalculixElement element = CalculixElement::c3d8;
+  std::vector<Vec3> nodal = {};  ///< dead forces on the mesh's nodes [N]; empty: none
   // Dynamics where duration > 0:
   double duration = 0, step = 0, density = 1040, alpha = 0, beta = 0;
 };

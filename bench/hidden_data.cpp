@@ -26,6 +26,7 @@ constexpr double largest = 0.15;     // of a muscle's maximum
 constexpr double force_error = 0.1;  // of known forces
 constexpr int most_tries = 5;
 constexpr double effort_sd = 0.12;
+constexpr int most_refits = 6;
 constexpr int line_points = 32, across_points = 20, scattered_points = 90;
 
 using Forces_N = std::map<std::string, double>;  // of both sides together
@@ -117,6 +118,68 @@ Target target_of(const std::vector<Measured>& points, double sigma) {
   return t;
 }
 
+/// The least squares step |r + J d|^2 + |(z + d - mean) / sd|^2 with z + d >= 0: what would go
+/// below stays at 0.
+Vector bounded_step(const Vector& r, const Matrix& j, const Vector& z, const Vector& mean,
+                    const Vector& sd) {
+  const auto n = z.size();
+  std::vector<bool> at_zero(size_t(n), false);
+  Vector d = Vector::Zero(n);
+  for (bool again = true; again;) {
+    std::vector<Eigen::Index> free;
+    d = -z;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (!at_zero[size_t(i)]) free.push_back(i), d[i] = 0;
+    if (free.empty()) break;
+    const Matrix a = j(Eigen::all, free);
+    const Vector weight = sd(free).cwiseAbs2().cwiseInverse();
+    const Matrix h = a.transpose() * a + Matrix(weight.asDiagonal());
+    const Vector g = a.transpose() * (r + j * d) + weight.cwiseProduct(z(free) - mean(free));
+    d(free) = -h.llt().solve(g);
+    again = false;
+    for (Eigen::Index i : free)
+      if (z[i] + d[i] < 0) again = at_zero[size_t(i)] = true;
+  }
+  return d;
+}
+
+/// A posture's residuals after its forces were refitted to `target`, from those it was made with;
+/// empty where there is no equilibrium.
+Vector after_refit(const Model& m, Equilibrium e, const Target& target, bool known, Workspace& ws) {
+  const Comparison comparison(m, target);
+  const auto commands = muscle_commands(m, !known);
+  const auto n = Eigen::Index(commands.size());
+  Vector z(n), sd = Vector::Constant(n, effort_sd), mean = Vector::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Command& c = commands[size_t(i)];
+    z[i] = 0;
+    for (int k : c.parameters) z[i] += e.parameters[k] / c.scale;
+  }
+  if (known) mean = z, sd = (force_error * z).cwiseMax(1e-6);
+  Residuals r = comparison(e.x);
+  for (int step = 0; step < most_refits; ++step) {
+    const Matrix j = residual_jacobian(
+        r, sensitivity_to_forces(m, e, command_pulls(m, commands, e.x, e.parameters), ws));
+    const Vector d = bounded_step(r.values, j, z, mean, sd);
+    const auto cost = [&](const Vector& values, const Vector& at) {
+      return values.squaredNorm() + (at - mean).cwiseQuotient(sd).squaredNorm();
+    };
+    const double before = cost(r.values, z);
+    bool better = false;
+    for (double part = 1; part > 0.1 && !better; part *= 0.5) {
+      const Vector next = z + part * d;
+      const Equilibrium there =
+          solve_equilibrium(m, apply_commands(commands, next, default_parameters(m)), e.x, ws);
+      if (!there) continue;
+      const Residuals at_next = comparison(there.x);
+      if (cost(at_next.values, next) > before) continue;
+      better = true, z = next, e = there, r = at_next;
+    }
+    if (!better || before - cost(r.values, z) < 0.01 * before) break;
+  }
+  return r.values;
+}
+
 /// What is left of the change's marks on the data once the forces have done their best, in units of
 /// the noise (root mean square over points and conditions); on the coarse mesh. Negative: no
 /// equilibrium.
@@ -135,22 +198,8 @@ double excess(const ModelDescription& tongue, const Changes& changes,
     auto points = what.surface ? surface_of(with, b.x, scattered_points, random)
                                : contours_of(with, b.x, line_points, across_points);
     lay(points, changes.pose());
-    const Residuals r = Comparison(without, target_of(points, what.noise))(a.x);
-    const auto commands = muscle_commands(without, !what.forces_known);
-    const Matrix j = residual_jacobian(
-        r,
-        sensitivity_to_forces(without, a, command_pulls(without, commands, a.x, a.parameters), ws));
-    Matrix h = j.transpose() * j;
-    for (size_t i = 0; i < commands.size(); ++i) {
-      double sd = effort_sd;
-      if (what.forces_known) {
-        sd = 1e-6;
-        for (int k : commands[i].parameters)
-          sd = std::max(sd, force_error * a.parameters[k] / commands[i].scale);
-      }
-      h(Eigen::Index(i), Eigen::Index(i)) += 1 / (sd * sd);
-    }
-    const Vector left = r.values - j * h.llt().solve(j.transpose() * r.values);
+    const Vector left =
+        after_refit(without, a, target_of(points, what.noise), what.forces_known, ws);
     sum += left.squaredNorm(), count += double(left.size());
   }
   return std::sqrt(sum / count);

@@ -28,6 +28,8 @@ int run(const BenchOptions& o) {
     j = bench::peer(needed(o.data, "--data", o.what), tell);
   } else if (o.what == "grenoble") {
     j = bench::grenoble(needed(o.data, "--data", o.what), tell);
+  } else if (o.what == "grenoble-gravity") {
+    j = bench::grenoble_gravity(needed(o.data, "--data", o.what), tell);
   } else if (o.what == "discover") {
     j = bench_discover(o.model, o.out.empty() ? "bench-discover" : o.out, o.sample, o.seed,
                        o.threads, o.only_data);
@@ -62,10 +64,11 @@ Runner add_bench(CLI::App& app) {
   app.add_option("what", o->what,
                  "forward, dynamic, robustness, verification, inverse, reach, peer, gesture, "
                  "discover, service, "
-                 "ultrasound, grenoble")
+                 "ultrasound, grenoble, grenoble-gravity")
       ->required()
       ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse", "reach",
-                             "peer", "gesture", "discover", "service", "ultrasound", "grenoble"}));
+                             "peer", "gesture", "discover", "service", "ultrasound", "grenoble",
+                             "grenoble-gravity"}));
   app.add_option("--model", o->model, "Model folder or model.toml");
   app.add_option("--data", o->data,
                  "grenoble, peer, dynamic, verification: folder of the ANSYS files");

@@ -92,10 +92,13 @@ class Search {
   /// is corrected, and its error with them.
   void settle(Study& study, const SharedPrior& shared, JointFit& f, Errors& errors) {
     for (int times = 0; times < 2; ++times) {
-      errors = errors_at(study, f, refinement_.get(), options_.doubt);
-      f = fit(study, shared, &errors, {&f.conditions});
       if (f.conditions.size() != study.size())
         throw InputError("the model does not reach the conditions: " + f.message);
+      errors = errors_at(study, f, refinement_.get(), options_.doubt);
+      JointFit next = fit(study, shared, &errors, {&f.conditions});
+      if (next.conditions.size() != study.size())
+        throw InputError("the model does not reach the conditions: " + next.message);
+      f = std::move(next);
       if (!refinement_ || refinement_->holds(study, f)) break;
     }
   }
@@ -146,6 +149,11 @@ class Search {
       r.log_odds = gain + prior[scores[i].candidate];
       if (gain < gained - hopeless) continue;
       fit_heldout(accounts[i], base_.heldout, evidence_);
+      if (accounts[i].heldout.conditions.size() != base_.heldout.conditions.size()) {
+        r.message = "does not reach the conditions held out: " + accounts[i].heldout.message;
+        tell("    " + r.message);
+        continue;
+      }
       if (gain > gained || !best_yet) gained = std::max(gain, gained), best_yet = &accounts[i];
       refitted.push_back(i);
       r.log_odds = odds(accounts[i]) + prior[scores[i].candidate];
@@ -228,10 +236,17 @@ class Search {
     base_.fit = fit(*base_.study, base_.shared, &evidence_.fitted, {&account.fit.conditions});
     settle();
     if (!base_.heldout_study) return;
-    fit_heldout(base_, account.heldout, evidence_);
-    evidence_.heldout =
-        errors_at(*base_.heldout_study, base_.heldout, refinement_.get(), options_.doubt);
-    fit_heldout(base_, base_.heldout, evidence_);
+    // The account's own fit stays where the settled parameters have none.
+    base_.heldout_study = account.heldout_study, base_.heldout = account.heldout;
+    for (int times = 0; times < 2; ++times) {
+      Account next = base_;
+      fit_heldout(next, base_.heldout, evidence_);
+      if (next.heldout.conditions.size() != base_.heldout.conditions.size()) break;
+      base_.heldout_study = next.heldout_study, base_.heldout = std::move(next.heldout);
+      if (times == 0)
+        evidence_.heldout =
+            errors_at(*base_.heldout_study, base_.heldout, refinement_.get(), options_.doubt);
+    }
   }
 
   void decide() {

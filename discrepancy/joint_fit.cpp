@@ -139,6 +139,11 @@ Matrix JointFit::jacobian() const {
 
 JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
              const FitOptions& options) {
+  if (options.start && options.start->size() != study.size()) {
+    JointFit nothing;
+    nothing.message = "nothing to start from";
+    return nothing;
+  }
   JointProblem problem(study, shared, errors, options);
   JointFit f;
   f.lower = problem.lower(), f.upper = problem.upper(), f.own = problem.own();

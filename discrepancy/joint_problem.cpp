@@ -57,10 +57,15 @@ class QuadraticModel final : public LocalModel {
   double value_ = 0;
 };
 
+constexpr int start_factorizations = 60;  // near a known shape more lead nowhere
+
 InferOptions starting(const Study& study, size_t k, const FitOptions& fit) {
   InferOptions options;
   options.bilateral = study.bilateral(k);
-  if (fit.start) options.start_shape = (*fit.start)[k].x;
+  if (fit.start) {
+    options.start_shape = (*fit.start)[k].x;
+    options.start_factorizations = start_factorizations;
+  }
   return options;
 }
 

@@ -7,13 +7,17 @@
 namespace genio {
 namespace {
 
+constexpr double far_start = 2, near_start = 0.1;  // typical strengths
+
 /// Starting values of a candidate's numbers, in their own unit.
-std::map<std::string, double> starts(const Candidate& c, const Score& s) {
+std::map<std::string, double> starts(const Candidate& c, const Score& s, double farthest) {
   std::map<std::string, double> result;
   for (size_t i = 0; i < c.strengths.size(); ++i) {
     const FreeNumber& n = c.strengths[i];
     const double least = 0.05 * n.info.typical;  // off the kink of a one-sided one
-    double v = s.estimate[Eigen::Index(i)];
+    // A straight line may point far beyond where it holds.
+    double v = n.info.absent + std::clamp(s.estimate[Eigen::Index(i)] - n.info.absent,
+                                          -farthest * n.info.typical, farthest * n.info.typical);
     if (std::abs(v - n.info.absent) < least) v = n.info.absent + least;
     result[c.effect + "." + n.name] = std::clamp(v, n.info.lower, n.info.upper);
   }
@@ -36,7 +40,7 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
   Account a;
   a.shared = base.shared;
   a.description = base.description;
-  std::map<std::string, double> start;
+  bool has_start = true;
   if (candidate.hypothesis) {
     const Hypothesis& h = *candidate.hypothesis;
     const bool is_switch = h.is_switch();
@@ -45,18 +49,21 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
       for (const auto* numbers : {&h.strengths, &h.details})
         for (const FreeNumber& n : *numbers)
           a.shared.parameters[h.effect + "." + n.name] = {n.info.absent, n.info.typical};
-      start = starts(candidate, score);
     }
+    has_start = !is_switch;
   } else {
     a.shared.head_pose = Prior::HeadPose{1e-3, 0.02};
-    start = starts(candidate, score);
   }
   try {
     a.study = std::make_shared<Study>(a.description, evidence.observations,
                                       fitted_conditions(evidence.observations));
-    FitOptions options{&base.fit.conditions, start};
-    options.hopeless = hopeless;
-    a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
+    for (double farthest : {far_start, near_start}) {
+      FitOptions options{&base.fit.conditions};
+      if (has_start) options.shared_start = starts(candidate, score, farthest);
+      options.hopeless = hopeless;
+      a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
+      if (a.fit.u.size() > 0) break;  // else no equilibrium that far
+    }
     a.message = a.fit.message;
   } catch (const InputError& e) {
     a.message = e.what();

@@ -166,7 +166,11 @@ const std::vector<EffectKind>& kinds() {
       {"material_nonlinearity",
        [](Settings& s, const Anatomy& a) -> Made {
          const double a20 = s.take("a20", 0), a30 = s.take("a30", 0);
-         return std::make_shared<MaterialNonlinearity>(a.description.mesh, a20, a30);
+         const auto& own = a.description.effects.at("elasticity");
+         const auto own_a20 = own.find("a20");
+         return std::make_shared<MaterialNonlinearity>(
+             a.description.mesh, a20, a30,
+             own_a20 == own.end() ? TissueConstants{}.a20 : own_a20->second);
        }},
       {"compressibility",
        [](Settings& s, const Anatomy& a) -> Made {

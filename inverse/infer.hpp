@@ -24,6 +24,9 @@ struct InferOptions {
   /// Its derivative (3 n x unknowns), where an earlier solve left it: then `start_shape` is taken
   /// to be the very equilibrium of `start`, and the first step costs no mechanics.
   Matrix start_by_unknown;
+  /// Factorisations that the first equilibrium may take from `start_shape`, without load steps; 0:
+  /// whatever it takes.
+  int start_factorizations = 0;
   bool rough_start = false;  ///< `start` is only a guess: go near under more effort first
   /// Positions and commands together as unknowns (infer_full_space()); to check the default by.
   bool full_space = false;

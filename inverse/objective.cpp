@@ -82,6 +82,10 @@ bool Objective::solve(const Vector& activations, ObjectivePoint& point) {
       start = last_.equilibrium.x;
     } else if (options_.start_shape) {
       start = *options_.start_shape;
+      if (options_.start_factorizations > 0) {
+        solve_options.max_factorizations = options_.start_factorizations;
+        solve_options.max_load_steps = 0;
+      }
     }
     ++forward_solves_;
     point.equilibrium = solve_equilibrium(model_, p, start, ws_, solve_options);

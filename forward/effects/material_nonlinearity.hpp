@@ -6,12 +6,14 @@
 namespace genio {
 
 /// Strain stiffening beyond the elasticity's own: W = a20 (I - 3)^2 + a30 (I - 3)^3 on top of it.
-/// Parameters: a20, a30 [Pa].
+/// Parameters: a20, a30 [Pa]; a20 takes away at most the elasticity's own, as tissue that softens
+/// has no stable shape.
 class MaterialNonlinearity final : public TissueEffect {
  public:
-  MaterialNonlinearity(const HexMesh& mesh, double a20, double a30)
+  /// `own_a20`: the elasticity's.
+  MaterialNonlinearity(const HexMesh& mesh, double a20, double a30, double own_a20)
       : TissueEffect(mesh),
-        info_{{{"a20", "Pa", a20, -1e4, 1e5, 0, false, false, 2e3},
+        info_{{{"a20", "Pa", a20, -own_a20, 1e5, 0, false, false, 2e3},
                {"a30", "Pa", a30, -1e4, 1e5, 0}}} {}
 
   std::string_view name() const override { return "material_nonlinearity"; }
