@@ -83,6 +83,14 @@ TEST_F(Scores, NothingHiddenScoresLowAndAHiddenEffectHighest) {
   EXPECT_LT(scores.front().p, 1e-6);
 }
 
+TEST_F(Scores, NoFitStartsFromConditionsThatAreMissing) {
+  look_at(tongue);
+  f.conditions.pop_back();
+  const JointFit again = fit(*study, {}, &errors, {&f.conditions});
+  EXPECT_FALSE(again.converged);
+  EXPECT_FALSE(again.message.empty());
+}
+
 TEST_F(Scores, ProjectionTakesAwayWhatTheUnknownsCanDo) {
   look_at(tongue);
   const Projection projection(f, errors.covariance);

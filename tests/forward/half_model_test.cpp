@@ -66,6 +66,13 @@ TEST(Mirror, IsRefusedToATongueWithASideOfItsOwn) {
   EXPECT_FALSE(mirror_of(build_model(bent, "bent")));
 }
 
+TEST(Mirror, IsGivenToEffectsThatAreAlikeOnBothSides) {
+  ModelDescription d = read_description(test::generic_model());
+  d.effects["weak_muscle"] = {{"GGP_L", 0.3}, {"GGP_R", 0.3}};
+  d.effects["jaw_opening"] = {{"angle", 2}};
+  EXPECT_TRUE(mirror_of(build_model(d, "weak, its jaw open")));
+}
+
 TEST(HalfModel, RefusesATongueThatIsNotItsMirrorImage) {
   ModelDescription d = read_description(test::generic_model());
   for (Vec3& x : d.mesh.nodes) x[1] += 1e-3;
