@@ -87,9 +87,7 @@ Json grenoble_gravity(const std::string& folder, const Progress& progress) {
     add_noise(points, noise, correlation, random);
     Condition c;
     c.name = fmt::format("posture {}", k + 1), c.heldout = k + heldout >= postures().size();
-    for (const Measured& p : points)
-      if (p.kind == "curve") c.target.curve.push_back({Vec2(p.position[0], p.position[2]), noise});
-      else c.target.surface.push_back({p.position, noise, p.slice});
+    c.target = target_of(points, noise);
     c.forces.emplace();
     for (const auto& [name, f] : postures()[k])
       for (int i : command_parameters(model, name)) {

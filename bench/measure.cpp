@@ -99,6 +99,14 @@ std::vector<Measured> surface_of(const Model& model, const Positions& x, int sca
   return points;
 }
 
+Target target_of(const std::vector<Measured>& points, double sigma) {
+  Target t;
+  for (const auto& p : points)
+    if (p.kind == "curve") t.curve.push_back({Vec2(p.position[0], p.position[2]), sigma});
+    else t.surface.push_back({p.position, sigma, p.slice});
+  return t;
+}
+
 void add_noise(std::vector<Measured>& points, double sd, double length, std::mt19937& random) {
   std::normal_distribution<double> normal;
   std::map<std::pair<std::string, int>, std::vector<size_t>> contours;

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "forward/model.hpp"
+#include "inverse/target.hpp"
 
 namespace genio::bench {
 
@@ -19,6 +20,9 @@ struct Measured {
 std::vector<Measured> contours_of(const Model& model, const Positions& x, int line, int across);
 std::vector<Measured> surface_of(const Model& model, const Positions& x, int scattered,
                                  std::mt19937& random);
+
+/// The points as a target of noise `sigma` [m].
+Target target_of(const std::vector<Measured>& points, double sigma);
 
 /// Adds noise of standard deviation `sd` to each coordinate in its plane, exp(-distance / length)
 /// correlated along each contour (over the whole surface for scattered points).

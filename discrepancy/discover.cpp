@@ -197,17 +197,6 @@ class Search {
     return gain > 0;
   }
 
-  /// A fitted account by itself.
-  static Explanation explanation_of(const Account& a) {
-    Explanation e{with_fitted(a.description, a.fit), {}};
-    for (const SharedEstimate& s : a.fit.shared) {
-      if (s.name == "head_pose.x") e.pose.shift[0] = s.value;
-      if (s.name == "head_pose.z") e.pose.shift[1] = s.value;
-      if (s.name == "head_pose.turn") e.pose.turn = s.value;
-    }
-    return e;
-  }
-
   void accept(const Round& round, size_t best, const std::vector<Account>& accounts) {
     const Account& account = accounts[best];
     const Ranked* first = round.candidates.data();
@@ -266,7 +255,7 @@ class Search {
       const double least = *std::min_element(confidence_.begin(), confidence_.end());
       d_.finding = least >= options_.certain ? Finding::named : Finding::ambiguous;
     }
-    d_.message = explanation();
+    d_.message = explanation(d_.finding, d_.fit_tail);
     if (d_.finding == Finding::unknown || d_.finding == Finding::none) {
       // What comes nearest is told among the alternatives, but is no name.
       for (size_t i = 0; i < effects_.size(); ++i)
@@ -277,21 +266,6 @@ class Search {
       d_.map_after = d_.map_before;
       d_.after = d_.before, d_.heldout_after = d_.heldout_before;
     }
-  }
-
-  std::string explanation() const {
-    switch (d_.finding) {
-      case Finding::none:
-        return fmt::format("what is left is within noise (p = {:.2g})", d_.fit_tail);
-      case Finding::unknown:
-        return fmt::format("a gap beyond noise (p = {:.1g}) that no candidate explains",
-                           d_.fit_tail);
-      case Finding::ambiguous:
-        return "these data do not tell the candidates below apart";
-      case Finding::named:
-        return fmt::format("with it, what is left is within noise (p = {:.2g})", d_.fit_tail);
-    }
-    return "";
   }
 
   const Observations& observations_;

@@ -1,5 +1,7 @@
 #include "discrepancy/discovery.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace genio {
@@ -16,6 +18,20 @@ const char* to_string(Finding finding) {
       return "unknown";
   }
   return "none";
+}
+
+std::string explanation(Finding finding, double p) {
+  switch (finding) {
+    case Finding::none:
+      return fmt::format("what is left is within noise (p = {:.2g})", p);
+    case Finding::unknown:
+      return fmt::format("a gap beyond noise (p = {:.1g}) that no candidate explains", p);
+    case Finding::ambiguous:
+      return "these data do not tell the candidates below apart";
+    case Finding::named:
+      return fmt::format("with it, what is left is within noise (p = {:.2g})", p);
+  }
+  return "";
 }
 
 Gap gap_of(const JointFit& fit, double noise) {

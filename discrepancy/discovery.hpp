@@ -9,6 +9,8 @@ namespace genio {
 
 enum class Finding { named, ambiguous, none, unknown };
 const char* to_string(Finding finding);
+/// In words; `p`: probability of residuals as large as those left, nothing missing.
+std::string explanation(Finding finding, double p);
 
 /// The gap between data and shapes, root mean square over points [m]: as it is, and what exceeds
 /// the noise.

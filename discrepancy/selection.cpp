@@ -40,7 +40,6 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
   Account a;
   a.shared = base.shared;
   a.description = base.description;
-  bool has_start = true;
   if (candidate.hypothesis) {
     const Hypothesis& h = *candidate.hypothesis;
     const bool is_switch = h.is_switch();
@@ -50,7 +49,6 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
         for (const FreeNumber& n : *numbers)
           a.shared.parameters[h.effect + "." + n.name] = {n.info.absent, n.info.typical};
     }
-    has_start = !is_switch;
   } else {
     a.shared.head_pose = Prior::HeadPose{1e-3, 0.02};
   }
@@ -58,8 +56,7 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
     a.study = std::make_shared<Study>(a.description, evidence.observations,
                                       fitted_conditions(evidence.observations));
     for (double farthest : {far_start, near_start}) {
-      FitOptions options{&base.fit.conditions};
-      if (has_start) options.shared_start = starts(candidate, score, farthest);
+      FitOptions options{&base.fit.conditions, starts(candidate, score, farthest)};
       options.hopeless = hopeless;
       a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
       if (a.fit.u.size() > 0) break;  // else no equilibrium that far
@@ -73,6 +70,16 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
     a.chi_square = projection.chi_square(), a.dof = projection.dof();
   }
   return a;
+}
+
+Explanation explanation_of(const Account& a) {
+  Explanation e{with_fitted(a.description, a.fit), {}};
+  for (const SharedEstimate& s : a.fit.shared) {
+    if (s.name == "head_pose.x") e.pose.shift[0] = s.value;
+    if (s.name == "head_pose.z") e.pose.shift[1] = s.value;
+    if (s.name == "head_pose.turn") e.pose.turn = s.value;
+  }
+  return e;
 }
 
 ModelDescription with_fitted(ModelDescription d, const JointFit& fit) {

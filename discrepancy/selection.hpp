@@ -2,6 +2,7 @@
 // Candidates refitted in full and weighed against each other and against nothing.
 
 #include "discrepancy/score.hpp"
+#include "discrepancy/separation.hpp"
 
 namespace genio {
 
@@ -37,6 +38,9 @@ void fit_heldout(Account& account, const JointFit& start, const Evidence& eviden
 
 /// Where shared parameters stand in a description: fitted values written into its effects.
 ModelDescription with_fitted(ModelDescription description, const JointFit& fit);
+
+/// A fitted account by itself.
+Explanation explanation_of(const Account& account);
 
 /// Log probability of candidates before data: half for nothing, the rest in equal parts for every
 /// effect, and of each for its places.
