@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "discrepancy/joint_problem.hpp"
 #include "inverse/box_gaussian.hpp"
@@ -102,20 +103,45 @@ double log_prior_mass(const Matrix& rows, const Vector& values, const JointFit& 
   return mass;
 }
 
-void summarise_shared(JointFit& f, const Matrix& covariance,
+/// t > 0 that a density exp(-slope t - t^2 / (2 sd^2)) on t >= 0 exceeds once in ten.
+double one_in_ten(double slope, double sd) {
+  const auto tail = [&](double t) { return std::erfc((t / sd + slope * sd) / std::numbers::sqrt2); };
+  if (slope * sd > 6) return std::numbers::ln10 / slope;
+  double low = 0, high = interval * sd;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (tail(middle) > 0.1 * tail(0) ? low : high) = middle;
+  }
+  return low;
+}
+
+/// `open`: which unknowns the density is of. Unknowns that a bound presses on stay there, but for
+/// the one that is looked at.
+void summarise_shared(JointFit& f, const BoxGaussian& density,
                       const std::vector<Eigen::Index>& open) {
   const FittedCondition& c = f.conditions.front();
   for (size_t i = 0; i < c.commands.size(); ++i) {
     if (c.which[i] < f.own) continue;
     const Command& command = c.commands[i];
     SharedEstimate e{command.name, command.unit, c.z[Eigen::Index(i)] * command.scale};
-    const auto at = std::find(open.begin(), open.end(), c.which[i]);
-    if (at != open.end())
-      e.sd = command.scale * std::sqrt(covariance(at - open.begin(), at - open.begin()));
-    const double low = command.lower * command.scale, high = command.upper * command.scale;
-    e.low = std::max(low, e.value - interval * e.sd);
-    e.high = std::min(high, e.value + interval * e.sd);
+    e.low = e.high = e.value;
     f.shared.push_back(e);
+    const auto found = std::find(open.begin(), open.end(), c.which[i]);
+    if (found == open.end()) continue;
+    const Eigen::Index at = found - open.begin();
+    std::vector<Eigen::Index> with{at};
+    for (Eigen::Index k = 0; k < density.slope.size(); ++k)
+      if (k != at && pressed(density, k) == 0) with.push_back(k);
+    const double sd = std::sqrt(
+        density.hessian(with, with).llt().solve(Vector::Unit(Eigen::Index(with.size()), 0))[0]);
+    const int side = pressed(density, at);
+    const double one_sided = side == 0 ? 0 : one_in_ten(std::abs(density.slope[at]), sd);
+    const double below = side == 0 ? interval * sd : side > 0 ? one_sided : 0;
+    const double above = side == 0 ? interval * sd : side < 0 ? one_sided : 0;
+    SharedEstimate& estimate = f.shared.back();
+    estimate.sd = command.scale * (side == 0 ? sd : one_sided / std::numbers::ln10);
+    estimate.low = std::max(command.lower * command.scale, e.value - command.scale * below);
+    estimate.high = std::min(command.upper * command.scale, e.value + command.scale * above);
   }
 }
 
@@ -191,14 +217,7 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
     if (pressed(density, i) == 0) density.slope[i] = 0;
   f.log_evidence = -f.value + log_integral(density) -
                    log_prior_mass(problem.prior_rows(), problem.prior_values(), f, open);
-  // Unknowns that a bound presses on do not move.
-  std::vector<Eigen::Index> free, at;
-  for (size_t i = 0; i < open.size(); ++i)
-    if (pressed(density, Eigen::Index(i)) == 0)
-      free.push_back(open[i]), at.push_back(Eigen::Index(i));
-  const Matrix covariance_of_free = Matrix(h(at, at)).llt().solve(
-      Matrix::Identity(Eigen::Index(at.size()), Eigen::Index(at.size())));
-  summarise_shared(f, covariance_of_free, free);
+  summarise_shared(f, density, open);
   return f;
 }
 

@@ -8,13 +8,16 @@ namespace genio {
 namespace {
 
 constexpr double tolerance = 1e-3;
+constexpr const char* of_muscles = "muscles.";
 constexpr double nearby = 1e-3;  // of any node, between shapes of one correction [m]
 
-/// Parameters of the condition by name, those of left and right evened out where `even`.
+/// Muscle forces of the condition by name, those of left and right evened out where `even`. All else
+/// is as the description has it, whose changes of one side half a tongue leaves out.
 Parameters evened(const Model& to, const Model& from, const Parameters& p, bool even) {
   Parameters q = default_parameters(to);
   for (Eigen::Index k = 0; k < q.size(); ++k) {
     const std::string& name = to.parameters[size_t(k)].name;
+    if (!name.starts_with(of_muscles)) continue;
     const std::string both = bilateral_name(name);
     double sum = 0;
     int count = 0;
@@ -33,7 +36,7 @@ Parameters halved(const Model& half, const Model& whole, const Parameters& p) {
   Parameters q = default_parameters(half);
   for (Eigen::Index k = 0; k < q.size(); ++k) {
     const std::string& name = half.parameters[size_t(k)].name;
-    const bool unpaired = name.starts_with("muscles.") && bilateral_name(name) == name;
+    const bool unpaired = name.starts_with(of_muscles) && bilateral_name(name) == name;
     q[k] = (unpaired ? 0.5 : 1.0) * p[parameter_index(whole, name)];
   }
   return q;

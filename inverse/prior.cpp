@@ -11,7 +11,8 @@
 namespace genio {
 namespace {
 
-constexpr double pose_range = 4;  // standard deviations that a head pose may reach
+constexpr double pose_range = 4;        // standard deviations that a head pose may reach
+constexpr double parameter_range = 20;  // and a parameter of an effect
 
 std::vector<std::string> names(const std::vector<Command>& unknowns) {
   std::vector<std::string> result;
@@ -87,7 +88,7 @@ std::vector<Command> unknowns(const Model& model, const Prior& prior, bool bilat
                                    info.unit, info.lower, info.upper));
     // Bounds may be far beyond what is believed; the unit is what may be reached.
     const double reach = std::min(std::max(std::abs(info.lower), std::abs(info.upper)),
-                                  std::abs(belief.mean) + pose_range * belief.sd);
+                                  std::abs(belief.mean) + parameter_range * belief.sd);
     result.push_back({name, reach, which, std::vector<double>(which.size(), 1.0),
                       Command::Kind::parameter, info.unit, std::max(-1.0, info.lower / reach),
                       std::min(1.0, info.upper / reach)});

@@ -1,0 +1,41 @@
+#include "discrepancy/refinement.hpp"
+
+#include "discrepancy/symmetric_part.hpp"
+#include "tests/discrepancy/posed_tongue.hpp"
+
+namespace genio {
+namespace {
+
+class RefinementTest : public test::PosedTongue {};
+
+TEST_F(RefinementTest, AChangeOfOneSideLeavesTheMeshErrorAsItWas) {
+  const Observations seen = observed(tongue, true);
+  const auto all = fitted_conditions(seen);
+  Study plain(tongue, seen, all);
+  const JointFit before = fit(plain, {}, nullptr);
+  ASSERT_EQ(before.conditions.size(), all.size()) << before.message;
+  Refinement refinement(tongue, seen);
+  const Corrections expected = refinement.corrections(plain, before);
+
+  Candidate pull{"extra_muscle", "chondroglossus_R", {}, {}};
+  for (const Hypothesis& h : hypotheses(tongue))
+    if (h.effect == pull.effect && h.where == pull.where)
+      pull.hypothesis = h, pull.strengths = h.strengths;
+  ASSERT_TRUE(pull.hypothesis);
+  ModelDescription lopsided = pull.hypothesis->added_to(tongue);
+  lopsided.effects["extra_muscle"]["force"] = 0.3;
+  Study study(lopsided, seen, all);
+  SharedPrior shared;
+  shared.parameters["extra_muscle.force"] = {0.3, 0.001};
+  const JointFit after = fit(study, shared, nullptr, {&before.conditions});
+  ASSERT_EQ(after.conditions.size(), all.size()) << after.message;
+  Refinement again(symmetric_part(lopsided, {pull}), refinement);
+  const Corrections corrections = again.corrections(study, after);
+  for (size_t k = 0; k < all.size(); ++k) {
+    ASSERT_EQ(corrections[k].size(), expected[k].size());
+    EXPECT_LT((corrections[k] - expected[k]).norm(), 0.3 * expected[k].norm()) << k;
+  }
+}
+
+}  // namespace
+}  // namespace genio
