@@ -85,7 +85,7 @@ HiddenChange stiff_region(const ModelDescription& d, std::mt19937& random) {
                      {"radius", radius}};
       },
       4, 60);
-  c.symmetric = at[1] == 0;
+  c.symmetric = at[1] == 0, c.drawn = true;
   return c;
 }
 
@@ -106,7 +106,7 @@ HiddenChange weak_muscle(const std::vector<std::string>& active, bool forces_kno
         return t;
       },
       0.3, 1);
-  c.where = sides == 2 ? muscle : keys.front(), c.symmetric = sides == 2;
+  c.where = sides == 2 ? muscle : keys.front(), c.symmetric = sides == 2, c.drawn = true;
   return c;
 }
 
@@ -143,7 +143,7 @@ HiddenChange extra_muscle(const ModelDescription& d, std::mt19937& random) {
                      {"to_y", to[1]},     {"to_z", to[2]},     {"force", s}};
       },
       2, 40);
-  c.symmetric = symmetric;
+  c.symmetric = symmetric, c.drawn = true;
   return c;
 }
 
@@ -152,7 +152,7 @@ HiddenChange head_pose(std::mt19937& random) {
   const Vec2 shift = 1e-3 * Vec2(normal(random), normal(random));
   const double turn = 0.02 * normal(random);
   HiddenChange c;
-  c.effect = "head_pose", c.first = 1, c.most = 10;
+  c.effect = "head_pose", c.drawn = true, c.first = 1, c.most = 10;
   c.truth = c.shipped = [](ModelDescription d, double) { return d; };
   c.pose = [=](double s) { return HeadPose{s * shift, s * turn}; };
   // The pose that the data would have to be moved by.
@@ -165,7 +165,7 @@ HiddenChange head_pose(std::mt19937& random) {
 HiddenChange lump(const ModelDescription& d, std::mt19937& random) {
   const Vec3 at = on_dorsum(d, random);
   HiddenChange c;
-  c.effect = "lump", c.in_library = false, c.first = 1, c.most = 8;
+  c.effect = "lump", c.in_library = false, c.drawn = true, c.first = 1, c.most = 8;
   c.truth = [=](ModelDescription t, double s) {
     t.mesh = with_lump(std::move(t.mesh), at, Vec3(0.2, 0, 1), 0.014, 1e-3 * s);
     return t;
@@ -179,7 +179,7 @@ HiddenChange tether(const ModelDescription& d, std::mt19937& random) {
   const Vec3 at = on_dorsum(d, random);
   const Vec3 anchor = at + Vec3(-0.01, 0.03, 0.01);
   HiddenChange c;
-  c.effect = "tether", c.in_library = false, c.symmetric = false, c.first = 30, c.most = 3000;
+  c.effect = "tether", c.in_library = false, c.symmetric = false, c.drawn = true, c.first = 30, c.most = 3000;
   c.truth = c.shipped = [](ModelDescription t, double) { return t; };
   c.by_hand = [=](Model& m, double s) {
     m.effects.push_back(

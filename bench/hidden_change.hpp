@@ -16,6 +16,7 @@ struct HiddenChange {
   std::string where;
   bool in_library = true;
   bool symmetric = true;        ///< of both sides alike
+  bool drawn = false;           ///< at a random place: another draw is another change
   double first = 1, most = 10;  ///< s to try first, and the largest that makes sense
   /// The tongue as it is, and as the model file has it.
   std::function<ModelDescription(ModelDescription, double)> truth, shipped;

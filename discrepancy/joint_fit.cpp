@@ -15,6 +15,7 @@ namespace {
 
 constexpr double interval = 1.645;  // standard deviations of a 90 % interval
 constexpr int most_steps = 25;
+constexpr double roughness = 1;  // of the log posterior
 // Of conditions inverted by themselves:
 constexpr int more_starts = 3;
 constexpr double much_worse = 1.4;  // than the median misfit
@@ -184,7 +185,7 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
   }
   u = u.cwiseMax(f.lower).cwiseMin(f.upper);
   const DescentResult r =
-      descend(problem, u, {most_steps, options.precision, {}, options.hopeless});
+      descend(problem, u, {most_steps, options.precision, {}, options.hopeless, roughness});
   f.converged = r.converged, f.message = r.message, f.iterations = r.iterations;
   if (r.u.size() == 0) return f;
   f.u = r.u, f.value = r.value;

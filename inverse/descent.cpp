@@ -94,6 +94,8 @@ DescentResult descend(MisfitProblem& problem, const Vector& start, const Descent
       result.u = u, result.value = *value;
       // The next promise is about what this one was wrong by.
       if (std::abs(gain - promise) < options.tolerance) return result.converged = true, result;
+    } else if (promise < options.roughness) {
+      return result.converged = true, result;
     } else if (trust < smallest_trust) {
       if (promise < worth_trying * options.tolerance) return result.converged = true, result;
       return failed(fmt::format("no step lowers the misfit{}{}",
