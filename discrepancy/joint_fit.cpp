@@ -118,13 +118,17 @@ double one_in_ten(double slope, double sd) {
 
 /// `open`: which unknowns the density is of. Unknowns that a bound presses on stay there, but for
 /// the one that is looked at.
-void summarise_shared(JointFit& f, const BoxGaussian& density,
+void summarise_shared(JointFit& f, const Model& model, const BoxGaussian& density,
                       const std::vector<Eigen::Index>& open) {
   const FittedCondition& c = f.conditions.front();
   for (size_t i = 0; i < c.commands.size(); ++i) {
     if (c.which[i] < f.own) continue;
     const Command& command = c.commands[i];
     SharedEstimate e{command.name, command.unit, c.z[Eigen::Index(i)] * command.scale};
+    // Through its unit and back a value may leave a bound by a rounding error.
+    for (int k : command.parameters)
+      e.value = std::clamp(e.value, model.parameters[size_t(k)].info.lower,
+                           model.parameters[size_t(k)].info.upper);
     e.low = e.high = e.value;
     f.shared.push_back(e);
     const auto found = std::find(open.begin(), open.end(), c.which[i]);
@@ -218,7 +222,7 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
     if (pressed(density, i) == 0) density.slope[i] = 0;
   f.log_evidence = -f.value + log_integral(density) -
                    log_prior_mass(problem.prior_rows(), problem.prior_values(), f, open);
-  summarise_shared(f, density, open);
+  summarise_shared(f, study.model(0), density, open);
   return f;
 }
 

@@ -91,6 +91,25 @@ TEST_F(Scores, NoFitStartsFromConditionsThatAreMissing) {
   EXPECT_FALSE(again.message.empty());
 }
 
+TEST_F(Scores, AnEstimateAtItsBoundIsOneThatAModelTakesAndHasAnInterval) {
+  ModelDescription truth = tongue, stiffer = tongue;
+  truth.effects["stiff_region"] = {
+      {"factor", 0.05}, {"x", 0.1}, {"y", 0}, {"z", 0.1}, {"radius", 0.015}};
+  stiffer.effects["stiff_region"] = truth.effects["stiff_region"];
+  stiffer.effects["elasticity"]["a10"] *= 1.5;
+  const Observations o = observed(truth, true);
+  Study stiff(stiffer, o, fitted_conditions(o));
+  SharedPrior shared;
+  shared.parameters["stiff_region.factor"] = {1, 4};
+  const JointFit joint = fit(stiff, shared, nullptr);
+  ASSERT_EQ(joint.shared.size(), 1u) << joint.message;
+  EXPECT_EQ(joint.shared[0].value, 0.05);
+  EXPECT_EQ(joint.shared[0].low, 0.05);
+  EXPECT_GT(joint.shared[0].high, 0.06);
+  stiffer.effects["stiff_region"]["factor"] = joint.shared[0].value;
+  EXPECT_NO_THROW(build_model(stiffer, "patched"));
+}
+
 TEST_F(Scores, ProjectionTakesAwayWhatTheUnknownsCanDo) {
   look_at(tongue);
   const Projection projection(f, errors.covariance);
