@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -120,7 +121,9 @@ Json run_discover_case(const ModelDescription& tongue, const HiddenCase& c,
     const ModelDescription d = read_description(data + "/model");
     const Observations o =
         read_observations(data + "/observations.toml", build_model(d, data + "/model"));
+    const std::clock_t started = std::clock();
     result["found"] = found_json(discover(d, o));
+    result["found"]["cpu_s"] = double(std::clock() - started) / CLOCKS_PER_SEC;
   } catch (const std::exception& e) {
     result["error"] = e.what();
   }

@@ -14,24 +14,32 @@ struct Count {
   Json json() const { return of == 0 ? Json() : Json(double(right) / of); }
 };
 
-/// The effects an answer names: those it is sure of, or, where it says that it cannot tell, the
-/// first with its one rival.
-bool names(const Json& found, const std::string& effect, size_t place) {
-  const std::string verdict = found["verdict"];
-  if (verdict != "named" && verdict != "ambiguous") return false;
-  if (place < found["effects"].size() && found["effects"][place]["effect"] == effect) return true;
-  if (verdict != "ambiguous") return false;
-  size_t likely = 0;
-  bool among = false;
+/// Those rivals that an answer takes for likely.
+std::vector<std::string> likely_rivals(const Json& found) {
+  std::vector<std::string> names;
   for (const Json& r : found["rivals"])
-    if (r["probability"].get<double>() > 0.05) ++likely, among |= r["effect"] == effect;
-  return likely == 1 && among;
+    if (r["probability"].get<double>() > 0.05) names.push_back(r["effect"]);
+  return names;
+}
+
+/// Alone, or first where it says that it cannot tell it from one rival.
+bool names(const Json& found, const std::string& effect) {
+  const std::string verdict = found["verdict"];
+  if (found["effects"].empty() || found["effects"][0]["effect"] != effect) return false;
+  return verdict == "named" || (verdict == "ambiguous" && likely_rivals(found).size() <= 1);
+}
+
+/// The same, or second.
+bool names_in_a_pair(const Json& found, const std::string& effect) {
+  const auto rivals = likely_rivals(found);
+  return names(found, effect) ||
+         (found["verdict"] == "ambiguous" && rivals.size() == 1 && rivals[0] == effect);
 }
 
 bool names_anywhere(const Json& found, const std::string& effect) {
   for (size_t i = 0; i < found["effects"].size(); ++i)
     if (found["effects"][i]["effect"] == effect) return true;
-  return names(found, effect, 0);
+  return names_in_a_pair(found, effect);
 }
 
 bool gives_a_name(const Json& found) { return !found["effects"].empty(); }
@@ -51,7 +59,7 @@ void count_parameters(const Json& truth, const Json& found, Count& covered) {
 }
 
 Json figures(const std::vector<Json>& results, bool known) {
-  Count strong, weak, false_alarm, foreign, two, covered;
+  Count strong, weak, strong_pair, weak_pair, false_alarm, foreign, two, covered;
   double gap_before = 0, gap_after = 0;  // of all
   std::vector<double> falls, seconds, scoring;
   std::map<std::string, std::map<std::string, int>> confusion;
@@ -69,7 +77,7 @@ Json figures(const std::vector<Json>& results, bool known) {
       continue;
     }
     const Json &f = r["found"], &hidden = a["hidden"];
-    seconds.push_back(f["wall_s"]), scoring.push_back(f["scoring_s"]);
+    seconds.push_back(f["cpu_s"]), scoring.push_back(f["scoring_s"]);
     std::string truth;
     for (const Json& h : hidden)
       truth += (truth.empty() ? "" : "+") + h["effect"].get<std::string>();
@@ -85,9 +93,10 @@ Json figures(const std::vector<Json>& results, bool known) {
     } else if (!hidden[0]["in_library"].get<bool>()) {
       foreign.add(gives_a_name(f));
     } else {
-      const bool right = names(f, hidden[0]["effect"], 0);
-      (a["strength"].get<double>() > 0.75 ? strong : weak).add(right);
-      if (right && !f["effects"].empty() && f["effects"][0]["effect"] == hidden[0]["effect"]) {
+      const bool right = names(f, hidden[0]["effect"]), is_strong = a["strength"] > 0.75;
+      (is_strong ? strong : weak).add(right);
+      (is_strong ? strong_pair : weak_pair).add(names_in_a_pair(f, hidden[0]["effect"]));
+      if (right) {
         count_parameters(hidden[0], f, covered);
         const double before = f["heldout_excess_before_mm"], after = f["heldout_excess_after_mm"];
         if (before > 0) falls.push_back(1 - after / before);
@@ -98,6 +107,8 @@ Json figures(const std::vector<Json>& results, bool known) {
   return {
       {"named_strength_1", strong.json()},
       {"named_strength_05", weak.json()},
+      {"in_a_pair_strength_1", strong_pair.json()},
+      {"in_a_pair_strength_05", weak_pair.json()},
       {"cases_strength_1", strong.of},
       {"cases_strength_05", weak.of},
       {"false_alarm", false_alarm.json()},

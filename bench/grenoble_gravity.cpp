@@ -27,10 +27,7 @@ constexpr size_t heldout = 1;  // the last one
 
 /// Nodal forces of the muscles alone.
 std::vector<Vec3> muscle_forces(const Model& m, const Positions& x, const Parameters& p) {
-  Forces f = Forces::Zero(x.size());
-  for (size_t e = 0; e < m.effects.size(); ++e)
-    if (m.effects[e]->name() == "muscles")
-      m.effects[e]->add_force(x, effect_parameters(m, p, int(e)), f);
+  const Forces f = forces_of(m, x, p, [](const Effect& e) { return e.name() == "muscles"; });
   std::vector<Vec3> nodal;
   for (size_t a = 0; a < m.mesh.nodes.size(); ++a) nodal.push_back(node_position(f, int(a)));
   return nodal;

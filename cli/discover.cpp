@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "report/discovery_page.hpp"
+#include "report/discovery_pictures.hpp"
 #include "report/discovery_report.hpp"
 #include "report/svg.hpp"
 
@@ -56,6 +57,9 @@ int run(const Options& o) {
     const std::string maps = draw_maps(d, observations);
     write_text(o.out + "/maps.svg", maps);
     write_png(o.out + "/maps.png", maps, 1.5);
+    const std::string contours = draw_contours(d, observations);
+    write_text(o.out + "/contours.svg", contours);
+    write_png(o.out + "/contours.png", contours, 1.5);
     write_text(o.out + "/discovery.html", discovery_page(d, observations, description.name));
   }
   if (o.json) fmt::print("{}\n", to_json(d, observations, model).dump());

@@ -84,8 +84,17 @@ class Search {
       settle_heldout();
     }
     d_.before = gap_of(base_.fit, d_.noise), d_.heldout_before = gap_of(base_.heldout, d_.noise);
+    d_.lines_before = lines();
     tell(fmt::format("gap {:.2f} mm ({:.2f} mm held out), noise {:.2f} mm", 1e3 * d_.before.rms,
                      1e3 * d_.heldout_before.rms, 1e3 * d_.noise));
+  }
+
+  std::vector<ShapeLine> lines() const {
+    auto all = shape_lines(*base_.study, base_.fit);
+    if (base_.heldout_study)
+      for (auto& line : shape_lines(*base_.heldout_study, base_.heldout))
+        all.push_back(std::move(line));
+    return all;
   }
 
   /// The errors at a fit, and the fit under them. Forces that made up for the mesh go back once it
@@ -242,6 +251,8 @@ class Search {
     if (!effects_.empty())
       d_.map_after = localise(*base_.study, base_.fit, evidence_.fitted.matrix);
     d_.after = gap_of(base_.fit, d_.noise), d_.heldout_after = gap_of(base_.heldout, d_.noise);
+    d_.lines_after = lines();
+    d_.families = families(observations_, d_.rounds.front());
     d_.model = with_fitted(base_.description, base_.fit);
     d_.fit_tail = chi_square_tail(base_.chi_square / options_.doubt.dispersion, base_.dof);
     const bool explained = d_.fit_tail >= options_.fit_level;
@@ -263,7 +274,7 @@ class Search {
                                {effects_[i].effect, effects_[i].where, confidence_[i], 1});
       d_.effects.clear();
       d_.model = found_;
-      d_.map_after = d_.map_before;
+      d_.map_after = d_.map_before, d_.lines_after = d_.lines_before;
       d_.after = d_.before, d_.heldout_after = d_.heldout_before;
     }
   }

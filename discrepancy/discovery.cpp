@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace genio {
@@ -32,6 +33,22 @@ std::string explanation(Finding finding, double p) {
       return fmt::format("with it, what is left is within noise (p = {:.2g})", p);
   }
   return "";
+}
+
+std::vector<Family> families(const Observations& o, const Round& first) {
+  std::vector<Family> result;
+  const bool some_known =
+      std::any_of(o.conditions.begin(), o.conditions.end(),
+                  [](const Condition& c) { return !c.heldout && c.forces.has_value(); });
+  if (!some_known)
+    result.push_back({"stiffness and force scale",
+                      "a tongue so much stiffer under forces so much larger has the same shapes",
+                      {"elasticity.a10 and a20 by one factor", "all forces by that factor"}});
+  Family absorbed{"absorbed by the forces", "unknown forces make all that these would show", {}};
+  for (const Ranked& r : first.candidates)
+    if (r.score.moves && !r.score.visible) absorbed.members.push_back(r.candidate.label());
+  if (!absorbed.members.empty()) result.push_back(std::move(absorbed));
+  return result;
 }
 
 Gap gap_of(const JointFit& fit, double noise) {

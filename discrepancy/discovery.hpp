@@ -4,6 +4,7 @@
 #include "discrepancy/localise.hpp"
 #include "discrepancy/score.hpp"
 #include "discrepancy/separation.hpp"
+#include "discrepancy/shape_lines.hpp"
 
 namespace genio {
 
@@ -56,20 +57,30 @@ struct Round {
   double seconds_scoring = 0;
 };
 
+/// Accounts that these data cannot tell apart whatever happens, and so never name.
+struct Family {
+  std::string name, why;
+  std::vector<std::string> members;
+};
+
+/// Those of a study: the scale of stiffness and forces where no force is known, and candidates
+/// whose every trace the unknown forces can make (`first`: the first round's).
+std::vector<Family> families(const Observations& observations, const Round& first);
+
 struct Discovery {
   Finding finding = Finding::none;
   std::string message;
   std::vector<NamedEffect> effects;
   std::vector<Rival> alternatives;
+  std::vector<Family> families;
   Gap before, after, heldout_before, heldout_after;
   double noise = 0;        ///< [m]
   double fit_tail = 1;     ///< probability of residuals as large as those left, nothing missing
   ModelDescription model;  ///< patched
   std::vector<Round> rounds;
-  JointFit first, last;  ///< fits of the fitted conditions before and after
-  JointFit heldout_first, heldout_last;
-  ResidualMap map_before, map_after;  ///< of the fitted conditions
-  HiddenForce hidden;                 ///< that would close the gap of the model as it was
+  std::vector<ShapeLine> lines_before, lines_after;  ///< fitted conditions, then held-out ones
+  ResidualMap map_before, map_after;                 ///< of the fitted conditions
+  HiddenForce hidden;  ///< that would close the gap of the model as it was
   double seconds = 0;
 };
 

@@ -37,16 +37,7 @@ std::vector<std::vector<std::pair<int, Vec3>>> nodal_gradients(const HexMesh& me
   return result;
 }
 
-/// The muscles alone at a shape.
-void muscles_at(const Model& model, const FittedCondition& c, Forces& f, Stiffness& k) {
-  f = Forces::Zero(c.x.size());
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    if (model.effects[e]->name() == "muscles") {
-      const auto p = effect_parameters(model, c.parameters, int(e));
-      model.effects[e]->add_force(c.x, p, f);
-      model.effects[e]->add_stiffness(c.x, p, k);
-    }
-}
+bool is_muscles(const Effect& e) { return e.name() == "muscles"; }
 
 }  // namespace
 
@@ -72,9 +63,11 @@ Matrix noise_covariance(const Target& target, const Residuals& r, double length)
 }
 
 Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matrix& influence) {
-  Forces f;
+  const Forces f = forces_of(model, c.x, c.parameters, is_muscles);
   Stiffness k(model.pattern);
-  muscles_at(model, c, f, k);
+  for (size_t e = 0; e < model.effects.size(); ++e)
+    if (is_muscles(*model.effects[e]))
+      model.effects[e]->add_stiffness(c.x, effect_parameters(model, c.parameters, int(e)), k);
   const Matrix turned = k.multiply_columns(influence.transpose());  // 3 n x rows
   const auto gradients = nodal_gradients(model.mesh);
   Matrix result = Matrix::Zero(influence.rows(), influence.cols());

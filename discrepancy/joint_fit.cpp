@@ -106,7 +106,9 @@ double log_prior_mass(const Matrix& rows, const Vector& values, const JointFit& 
 
 /// t > 0 that a density exp(-slope t - t^2 / (2 sd^2)) on t >= 0 exceeds once in ten.
 double one_in_ten(double slope, double sd) {
-  const auto tail = [&](double t) { return std::erfc((t / sd + slope * sd) / std::numbers::sqrt2); };
+  const auto tail = [&](double t) {
+    return std::erfc((t / sd + slope * sd) / std::numbers::sqrt2);
+  };
   if (slope * sd > 6) return std::numbers::ln10 / slope;
   double low = 0, high = interval * sd;
   for (int i = 0; i < 50; ++i) {

@@ -115,7 +115,8 @@ Target read_target(const TomlReader& file, const toml::table& table, const Model
   const ContourFrame& frame = contours.frames[index];
   const Target target =
       make_target(model, contours.model_frame ? frame : registered(model, frame, to_model), noise);
-  if (target.empty()) throw InputError(fmt::format("{}: frame {} has no points", path, frame.number));
+  if (target.empty())
+    throw InputError(fmt::format("{}: frame {} has no points", path, frame.number));
   return target;
 }
 

@@ -11,8 +11,8 @@ constexpr double tolerance = 1e-3;
 constexpr const char* of_muscles = "muscles.";
 constexpr double nearby = 1e-3;  // of any node, between shapes of one correction [m]
 
-/// Muscle forces of the condition by name, those of left and right evened out where `even`. All else
-/// is as the description has it, whose changes of one side half a tongue leaves out.
+/// Muscle forces of the condition by name, those of left and right evened out where `even`. All
+/// else is as the description has it, whose changes of one side half a tongue leaves out.
 Parameters evened(const Model& to, const Model& from, const Parameters& p, bool even) {
   Parameters q = default_parameters(to);
   for (Eigen::Index k = 0; k < q.size(); ++k) {

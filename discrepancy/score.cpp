@@ -145,10 +145,12 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     const auto count = Eigen::Index(strengths.size());
     Score s;
     s.candidate = c;
-    Matrix g = projection(signature(candidates[c], study, fit, influences));
     Vector typical(count);
     for (Eigen::Index i = 0; i < count; ++i) typical[i] = strengths[size_t(i)].info.typical;
-    g = (g * typical.asDiagonal()).eval();  // by one typical strength
+    // By one typical strength.
+    const Matrix change = signature(candidates[c], study, fit, influences) * typical.asDiagonal();
+    s.moves = change.squaredNorm() > invisible * invisible;
+    const Matrix g = projection(change);
     s.estimate = Vector::Zero(count), s.sd = Vector::Zero(count);
     // Directions that the data do not see are left to what is believed.
     const Matrix information = g.transpose() * g;

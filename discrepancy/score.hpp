@@ -45,7 +45,8 @@ Matrix signature(const Candidate& candidate, const Study& study, const JointFit&
 
 struct Score {
   size_t candidate = 0;
-  bool visible = false;     ///< false: this data do not change with it
+  bool moves = false;       ///< what these data show changes with it
+  bool visible = false;     ///< in a way that the unknowns cannot make up for
   double statistic = 0;     ///< chi-square of Rao's test; one-sided where the sign is known
   double p = 1;             ///< its tail, for this candidate alone
   double log_evidence = 0;  ///< gain over nothing, to second order, typical strengths believed

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double command = 0.15;  // activation of a muscle by itself
 constexpr int line_points = 30;
-constexpr double near_zero = 1e-4;  // activation of a muscle known to rest
+constexpr double near_zero = 1e-4;   // activation of a muscle known to rest
+constexpr double usual_error = 0.1;  // of a known force, where no condition has one
 
 /// A tongue under one account, in one orientation.
 struct Tongue {
@@ -66,7 +67,8 @@ Target measured(const Model& m, const Positions& x, const HeadPose& laid,
 /// where there is none.
 double difference(Tongue& a, const HeadPose& a_laid, Tongue& b, const HeadPose& b_laid,
                   const Experiment& e, const Observations& o, const std::vector<int>& nodes,
-                  bool forces_known) {
+                  double known_error) {
+  const bool forces_known = known_error > 0;
   const Equilibrium x = a.posed(e.forces), y = b.posed(e.forces);
   if (!x || !y) return -1;
   const Target target = measured(b.model, y.x, b_laid, nodes, o.noise);
@@ -84,12 +86,23 @@ double difference(Tongue& a, const HeadPose& a_laid, Tongue& b, const HeadPose& 
     if (forces_known) {
       sd = near_zero;
       for (int k : commands[i].parameters)
-        sd = std::max(sd, 0.1 * x.parameters[k] / commands[i].scale);
+        sd = std::max(sd, known_error * x.parameters[k] / commands[i].scale);
     }
     h(Eigen::Index(i), Eigen::Index(i)) += 1 / (sd * sd);
   }
   const Vector slope = j.transpose() * values;
   return 0.5 * (values.squaredNorm() - slope.dot(h.llt().solve(slope)));
+}
+
+/// By what part of itself a force of a condition is uncertain, in the middle; 0: unknown forces.
+double error_of_forces(const Condition& c) {
+  if (!c.forces) return 0;
+  std::vector<double> parts;
+  for (const auto& [name, f] : *c.forces)
+    if (f.mean > 0) parts.push_back(std::max(near_zero, f.sd / f.mean));
+  if (parts.empty()) return usual_error;
+  std::nth_element(parts.begin(), parts.begin() + long(parts.size() / 2), parts.end());
+  return parts[parts.size() / 2];
 }
 
 ModelDescription tilted(ModelDescription d, double pitch) {
@@ -112,7 +125,7 @@ std::string Experiment::label() const {
 std::vector<Experiment> experiments(const Explanation& one, const Explanation& other,
                                     const Observations& o, size_t most) {
   const Condition& first = o.conditions.front();
-  const bool known = first.forces.has_value();
+  const double known = error_of_forces(first);
   const bool weight =
       one.model.effects.contains("gravity") || other.model.effects.contains("gravity");
   std::vector<Experiment> all;

@@ -72,11 +72,7 @@ Parameters trial_parameters(const Model& m) {
 /// Forces but for those of contact, whose surfaces are compared by themselves: meshes of a palate
 /// are symmetric to less than their forces would tell.
 Forces force_of_tongue(const Model& m, const Positions& x, const Parameters& p) {
-  Forces f = Forces::Zero(x.size());
-  for (size_t e = 0; e < m.effects.size(); ++e)
-    if (!dynamic_cast<const Contact*>(m.effects[e].get()))
-      m.effects[e]->add_force(x, effect_parameters(m, p, int(e)), f);
-  return f;
+  return forces_of(m, x, p, [](const Effect& e) { return !dynamic_cast<const Contact*>(&e); });
 }
 
 /// What the tongue may touch is the same on both sides.

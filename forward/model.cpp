@@ -108,11 +108,17 @@ double energy(const Model& model, const Positions& x, const Parameters& p) {
   return total;
 }
 
-Forces force(const Model& model, const Positions& x, const Parameters& p) {
+Forces forces_of(const Model& model, const Positions& x, const Parameters& p,
+                 const std::function<bool(const Effect&)>& which) {
   Forces f = Forces::Zero(x.size());
   for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_force(x, effect_parameters(model, p, int(e)), f);
+    if (which(*model.effects[e]))
+      model.effects[e]->add_force(x, effect_parameters(model, p, int(e)), f);
   return f;
+}
+
+Forces force(const Model& model, const Positions& x, const Parameters& p) {
+  return forces_of(model, x, p, [](const Effect&) { return true; });
 }
 
 double load_size(const Model& model, const Positions& x, const Parameters& p) {

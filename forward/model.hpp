@@ -2,6 +2,7 @@
 // A tongue: mesh, supports, surfaces and the effects whose energies add up. Immutable once built.
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,6 +92,9 @@ std::vector<double> effect_parameters(const Model& model, const Parameters& p, i
 double energy(const Model& model, const Positions& x, const Parameters& p);
 /// Total nodal forces [N].
 Forces force(const Model& model, const Positions& x, const Parameters& p);
+/// Those of some of its effects.
+Forces forces_of(const Model& model, const Positions& x, const Parameters& p,
+                 const std::function<bool(const Effect&)>& which);
 /// Norm of the nodal forces of loads and contacts, which a residual is compared with [N]; at least
 /// 1 mN.
 double load_size(const Model& model, const Positions& x, const Parameters& p);

@@ -5,37 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/discovery_pictures.hpp"
 #include "report/svg.hpp"
 
 namespace genio {
 namespace {
-
-constexpr double panel = 250, gap = 20;  // [px]
-constexpr double full_colour = 2e-3;     // [m]
-
-std::string colour(double distance) {
-  const double t = std::clamp(std::abs(distance) / full_colour, 0.0, 1.0);
-  const int pale = int(225 - 200 * t);
-  return distance > 0 ? fmt::format("rgb(215,{0},{0})", pale)
-                      : fmt::format("rgb({0},{0},215)", pale);
-}
-
-void draw_map(Svg& svg, const ResidualMap& map, size_t condition, double left, double top,
-              const std::string& title) {
-  svg.rect(left, top, panel, panel, {"#ddd"});
-  svg.text(left + 8, top + 16, title, 12, "start", "#444");
-  Axes axes{1e9, -1e9, 1e9, -1e9, left + 15, top + 25, panel - 30, panel - 40};
-  for (const MapPoint& p : map.points) {
-    axes.x0 = std::min(axes.x0, p.place[0]), axes.x1 = std::max(axes.x1, p.place[0]);
-    axes.y0 = std::min(axes.y0, p.place[2]), axes.y1 = std::max(axes.y1, p.place[2]);
-  }
-  const double size = std::max(axes.x1 - axes.x0, axes.y1 - axes.y0);
-  axes.x1 = axes.x0 + size, axes.y1 = axes.y0 + size;
-  for (const MapPoint& p : map.points)
-    if (p.condition == condition)
-      svg.circle(axes.px(p.place[0]), axes.py(p.place[2]), p.beyond ? 4.2 : 3.0,
-                 {p.beyond ? "#111" : "none", colour(p.distance), p.beyond ? 1.2 : 0});
-}
 
 std::string gap_row(const char* what, const Gap& before, const Gap& after, double noise) {
   return fmt::format(
@@ -93,6 +67,14 @@ std::string detectable_part(const Round& round) {
   return s + "</table>\n";
 }
 
+std::string families_part(const Discovery& d) {
+  std::string s;
+  for (const Family& f : d.families)
+    s += fmt::format("<p>Never told apart by these data ({}): {}; {}.</p>\n", escaped(f.name),
+                     escaped(fmt::format("{}", fmt::join(f.members, ", "))), escaped(f.why));
+  return s;
+}
+
 std::string patches_part(const Discovery& d, const Observations& o) {
   const auto& patches = d.map_before.patches;
   if (patches.empty())
@@ -109,41 +91,6 @@ std::string patches_part(const Discovery& d, const Observations& o) {
 }
 
 }  // namespace
-
-std::string draw_maps(const Discovery& d, const Observations& o) {
-  std::vector<size_t> shown;
-  for (const MapPoint& p : d.map_before.points)
-    if (shown.empty() || shown.back() != p.condition) shown.push_back(p.condition);
-  Svg svg(2 * panel + 3 * gap, double(shown.size()) * (panel + gap) + gap);
-  for (size_t i = 0; i < shown.size(); ++i) {
-    const double top = gap + double(i) * (panel + gap);
-    const std::string& name = o.conditions[shown[i]].name;
-    draw_map(svg, d.map_before, shown[i], gap, top, name + ", before");
-    draw_map(svg, d.map_after, shown[i], 2 * gap + panel, top, name + ", after");
-  }
-  return svg.str();
-}
-
-std::string draw_ranking(const Round& round, size_t most) {
-  std::vector<const Ranked*> shown;
-  for (const Ranked& r : round.candidates)
-    if (r.score.visible && shown.size() < most) shown.push_back(&r);
-  double low = 0, high = 1;
-  for (const Ranked* r : shown)
-    low = std::min(low, r->log_odds), high = std::max(high, r->log_odds);
-  constexpr double row = 22, left = 250, width = 380;
-  Svg svg(left + width + 80, row * double(shown.size()) + 20);
-  const auto x = [&](double v) { return left + (v - low) / (high - low) * width; };
-  for (size_t i = 0; i < shown.size(); ++i) {
-    const Ranked& r = *shown[i];
-    const double y = 10 + row * double(i), v = r.log_odds;
-    svg.text(left - 8, y + 14, r.candidate.label(), 12, "end");
-    svg.rect(std::min(x(0), x(v)), y + 2, std::max(1.0, std::abs(x(v) - x(0))), row - 6,
-             {"none", r.refitted ? "#1f5fa8" : "#a9c3e0"});
-    svg.text(std::max(x(0), x(v)) + 6, y + 14, fmt::format("{:.1f}", v), 11, "start", "#555");
-  }
-  return svg.str();
-}
 
 std::string discovery_page(const Discovery& d, const Observations& o, const std::string& title) {
   std::string s = fmt::format(
@@ -174,13 +121,16 @@ std::string discovery_page(const Discovery& d, const Observations& o, const std:
         draw_ranking(d.rounds[i], 14));
   if (!d.rounds.empty())
     s += "<h3>What these data could show</h3>\n" + detectable_part(d.rounds.back());
+  s += families_part(d);
   s += fmt::format(
       "<h2>What changed</h2>\n<table><tr><th>gap, RMS</th><th>before [mm]</th><th>after [mm]</th>"
       "<th>before / noise</th><th>after / noise</th></tr>\n{}{}</table>\n<p>Noise {:.2f} mm; what "
-      "is left is noise with p = {:.2g}.</p>\n{}</body></html>\n",
+      "is left is noise with p = {:.2g}.</p>\n<h3>Distance of the data from the surface</h3>\n{}"
+      "<h3>Midsagittal contours</h3>\n<p>Dots: measured; dashed: the model as it was; line: as it "
+      "is now.</p>\n{}</body></html>\n",
       gap_row("fitted conditions", d.before, d.after, d.noise),
       gap_row("held-out conditions", d.heldout_before, d.heldout_after, d.noise), 1e3 * d.noise,
-      d.fit_tail, draw_maps(d, o));
+      d.fit_tail, draw_maps(d, o), draw_contours(d, o));
   return s;
 }
 

@@ -45,6 +45,7 @@ Json round_json(const Round& round) {
       estimate[r.candidate.strengths[i].name] = r.score.estimate[Eigen::Index(i)];
     candidates.push_back({{"name", r.candidate.effect},
                           {"where", r.candidate.where},
+                          {"moves", r.score.moves},
                           {"visible", r.score.visible},
                           {"statistic", r.score.statistic},
                           {"p", r.score.p},
@@ -74,11 +75,15 @@ Json to_json(const Discovery& d, const Observations& o, const std::string& model
                             {"probability", r.probability},
                             {"similarity", r.similarity},
                             {"experiments", experiments_json(r.apart)}});
+  Json families = Json::array();
+  for (const Family& f : d.families)
+    families.push_back({{"name", f.name}, {"why", f.why}, {"members", f.members}});
   for (const Round& r : d.rounds) rounds.push_back(round_json(r));
   return {{"verdict", to_string(d.finding)},
           {"message", d.message},
           {"effects", effects},
           {"alternatives", alternatives},
+          {"families", families},
           {"gap_before_mm", 1e3 * d.before.rms},
           {"gap_after_mm", 1e3 * d.after.rms},
           {"heldout_gap_before_mm", 1e3 * d.heldout_before.rms},
