@@ -36,6 +36,7 @@ Json found_json(const Discovery& d) {
                         {"score", r.score.log_evidence},
                         {"refitted", r.refitted},
                         {"log_odds", r.log_odds},
+                        {"heldout_gain", r.heldout_gain},
                         {"probability", r.probability}});
     rounds.push_back(best);
   }

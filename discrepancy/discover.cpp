@@ -9,6 +9,7 @@
 
 #include "discrepancy/errors.hpp"
 #include "discrepancy/influence.hpp"
+#include "discrepancy/response.hpp"
 #include "discrepancy/selection.hpp"
 #include "discrepancy/symmetric_part.hpp"
 #include "discrepancy/weighing.hpp"
@@ -165,14 +166,18 @@ class Search {
       }
       if (gain > gained || !best_yet) gained = std::max(gain, gained), best_yet = &accounts[i];
       refitted.push_back(i);
+      r.heldout_gain = heldout_gain(accounts[i]);
       r.log_odds = odds(accounts[i]) + prior[scores[i].candidate];
       tell(fmt::format("    log odds {:.1f}, chi2 {:.0f} of {:.0f}", r.log_odds,
                        accounts[i].chi_square, accounts[i].dof));
     }
     size_t best = weigh(round, refitted);
-    if (!refitted.empty() && round.nothing < options_.nothing && follow(accounts[best])) {
-      for (size_t i : refitted)
+    if (!refitted.empty() && round.nothing < options_.nothing &&
+        follow(accounts[best], round.candidates[best].candidate)) {
+      for (size_t i : refitted) {
+        round.candidates[i].heldout_gain = heldout_gain(accounts[i]);
         round.candidates[i].log_odds = odds(accounts[i]) + prior[scores[i].candidate];
+      }
       best = weigh(round, refitted);
     }
     const bool go_on = !refitted.empty() && round.nothing < options_.nothing;
@@ -183,24 +188,29 @@ class Search {
 
   /// Log evidence of an account over the base's, on all data.
   double odds(const Account& a) const {
-    return a.fit.log_evidence - base_.fit.log_evidence + a.heldout.log_evidence -
-           base_.heldout.log_evidence;
+    return a.fit.log_evidence - base_.fit.log_evidence + heldout_gain(a);
+  }
+  double heldout_gain(const Account& a) const {
+    return a.heldout.log_evidence - base_.heldout.log_evidence;
   }
 
-  /// Lets the base start where a better account ended: that may have found a valley of the forces
-  /// that has nothing to do with what it adds. True where the base got better by it.
-  bool follow(const Account& better) {
+  /// Lets the base start where a better account ends once what it adds goes away: it may have found
+  /// a valley of the forces that has nothing to do with that. True where the base got better by it.
+  bool follow(const Account& better, const Candidate& added) {
     const double before = base_.fit.log_evidence + base_.heldout.log_evidence;
     const auto try_from = [](Study& study, const SharedPrior& shared, const Errors& errors,
-                             const JointFit& start, JointFit& best) {
-      FitOptions options{&start.conditions};
-      options.hopeless = start.value + hopeless;
+                             const std::vector<FittedCondition>& start, double value,
+                             JointFit& best) {
+      FitOptions options{&start};
+      options.hopeless = value + hopeless;
       JointFit f = fit(study, shared, &errors, options);
       if (f.converged && f.log_evidence > best.log_evidence) best = std::move(f);
     };
-    try_from(*base_.study, base_.shared, evidence_.fitted, better.fit, base_.fit);
+    try_from(*base_.study, base_.shared, evidence_.fitted,
+             without(added, better.fit, evidence_.fitted), better.fit.value, base_.fit);
     if (base_.heldout_study && better.heldout.converged)
-      try_from(*base_.heldout_study, {}, evidence_.heldout, better.heldout, base_.heldout);
+      try_from(*base_.heldout_study, {}, evidence_.heldout, better.heldout.conditions,
+               better.heldout.value, base_.heldout);
     const double gain = base_.fit.log_evidence + base_.heldout.log_evidence - before;
     if (gain > 0) tell(fmt::format("  the model as it is does better from there: {:+.1f}", gain));
     return gain > 0;

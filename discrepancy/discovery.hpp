@@ -48,6 +48,7 @@ struct Ranked {
   double log_odds = 0;     ///< against nothing, prior odds included
   double probability = 0;  ///< among all
   std::string message;
+  double heldout_gain = 0;  ///< of log evidence, what the held-out conditions add to the odds
 };
 
 struct Round {

@@ -96,12 +96,7 @@ double log_prior_mass(const Matrix& rows, const Vector& values, const JointFit& 
   Vector fixed = f.u;
   for (auto i : open) fixed[i] = 0;
   const Vector centre = h.llt().solve(a.transpose() * (values - rows * fixed));
-  double mass = log_integral(about(centre, h, f.lower(open), f.upper(open)));
-  // Half of a shared belief may lie beyond the value at which it vanishes.
-  for (size_t k = 0; k < open.size(); ++k)
-    if (open[k] >= f.own && std::abs(centre[Eigen::Index(k)] - f.lower[open[k]]) < 1e-9)
-      mass -= std::log(2.0);
-  return mass;
+  return log_integral(about(centre, h, f.lower(open), f.upper(open)));
 }
 
 /// t > 0 that a density exp(-slope t - t^2 / (2 sd^2)) on t >= 0 exceeds once in ten.

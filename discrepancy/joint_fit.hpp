@@ -10,6 +10,9 @@
 
 namespace genio {
 
+/// How far about a measured point its distance from the surface is taken, see Comparison [m].
+constexpr double surface_smoothing = 1.5e-3;
+
 /// Parameters of the model that all conditions share, and what is believed of them; a head pose
 /// where the data themselves are laid wrongly.
 struct SharedPrior {

@@ -14,7 +14,7 @@ class JointProblem final : public MisfitProblem {
  public:
   struct Part {
     Part(Study& study, size_t k, const Prior& prior, InferOptions how, Vector off)
-        : comparison(study.model(k), study.condition(k).target),
+        : comparison(study.model(k), study.condition(k).target, surface_smoothing),
           correction(std::move(off)),
           options(std::move(how)),
           objective(study.model(k), comparison, prior, options, study.workspace(k)) {}

@@ -7,7 +7,7 @@
 namespace genio {
 namespace {
 
-constexpr double tolerance = 1e-3;
+constexpr double tolerance = 1e-5;
 constexpr const char* of_muscles = "muscles.";
 constexpr double nearby = 1e-3;  // of any node, between shapes of one correction [m]
 
@@ -131,8 +131,10 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c, siz
   }
   const HeadPose pose = head_pose(c.commands, c.z);
   const Target& target = seen.target;
-  return known.correction = Comparison(t.whole, target)(x, pose).values -
-                            Comparison(t.coarse, target)(rough.x, pose).values;
+  const auto values = [&](const Model& m, const Positions& at) {
+    return Comparison(m, target, surface_smoothing)(at, pose).values;
+  };
+  return known.correction = values(t.whole, x) - values(t.coarse, rough.x);
 }
 
 Corrections Refinement::corrections(const Study& study, const JointFit& fit) {

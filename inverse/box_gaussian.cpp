@@ -126,20 +126,4 @@ Matrix sample(const BoxGaussian& g, int count) {
   return samples;
 }
 
-double log_integral(const BoxGaussian& g) {
-  double result = 0;
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < g.mode.size(); ++i) {
-    // A weak slope leaves a half Gaussian.
-    const double width = std::sqrt(0.5 * std::numbers::pi / g.hessian(i, i));
-    if (pressed(g, i) != 0) result += std::log(std::min(1 / std::abs(g.slope[i]), width));
-    else free.push_back(i);
-  }
-  if (free.empty()) return result;
-  const Eigen::LLT<Matrix> factor(Matrix(g.hessian(free, free)));
-  const Matrix l = factor.matrixL();
-  return result + 0.5 * double(free.size()) * std::log(2 * std::numbers::pi) -
-         l.diagonal().array().log().sum();
-}
-
 }  // namespace genio

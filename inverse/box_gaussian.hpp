@@ -27,8 +27,7 @@ int pressed(const BoxGaussian& density, Eigen::Index i);
 /// is not positive definite.
 Matrix sample(const BoxGaussian& density, int count);
 
-/// Logarithm of the integral of the density, by Laplace's method with the bounds that press on the
-/// mode: an exponential across each of these, a Gaussian along the rest.
+/// Logarithm of the integral of the density between its bounds, H positive definite.
 double log_integral(const BoxGaussian& density);
 
 }  // namespace genio

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "forward/closest_point.hpp"
 #include "inverse/moved_target.hpp"
@@ -93,42 +94,107 @@ void compare_flesh(const FleshPoint& point, const Positions& x, const MovedTarge
   rows.point(off.norm(), on);
 }
 
-void compare_surface(const SurfacePoint& point, const std::vector<std::array<int, 3>>& triangles,
-                     const Positions& x, const MovedTarget& moved, Builder& rows) {
-  // Few hundred faces against few hundred points: a tree over a moving surface would not pay.
-  const Vec3 q = moved(point.position);
-  double best = std::numeric_limits<double>::infinity();
-  size_t index = 0;
-  std::array<double, 3> weight{};
-  Vec3 foot = Vec3::Zero();
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    const auto& n = triangles[t];
-    const Vec3 a = node_position(x, n[0]), b = node_position(x, n[1]), c = node_position(x, n[2]);
-    const auto w = closest_on_triangle(q, a, b, c);
-    const Vec3 f = w[0] * a + w[1] * b + w[2] * c;
-    if (const double d = (q - f).squaredNorm(); d < best) best = d, index = t, weight = w, foot = f;
-  }
-  const auto& n = triangles[index];
+using Triangles = std::vector<std::array<int, 3>>;
+
+/// Where a point comes to lie on a triangle.
+struct Foot {
+  std::array<double, 3> weight;
+  Vec3 place;
+  double square;  ///< of the distance
+};
+
+Foot foot_on(const Vec3& q, const std::array<int, 3>& n, const Positions& x) {
+  const Vec3 a = node_position(x, n[0]), b = node_position(x, n[1]), c = node_position(x, n[2]);
+  const auto w = closest_on_triangle(q, a, b, c);
+  const Vec3 f = w[0] * a + w[1] * b + w[2] * c;
+  return {w, f, (q - f).squaredNorm()};
+}
+
+/// The signed distance of q, whose nearest triangle and foot are given, and its derivative with
+/// respect to q.
+double signed_distance(const Vec3& q, const std::array<int, 3>& n, const Foot& foot,
+                       const Positions& x, Vec3& slope) {
   const Vec3 face = (node_position(x, n[1]) - node_position(x, n[0]))
                         .cross(node_position(x, n[2]) - node_position(x, n[0]))
                         .normalized();
   // Signed along the line to the foot point, which is the face's normal inside a face.
-  Vec3 normal = q - foot;
-  const double distance = normal.norm();
-  normal = distance > 1e-9 ? Vec3(normal / distance) : face;
+  const double distance = std::sqrt(foot.square);
+  const Vec3 normal = distance > 1e-9 ? Vec3((q - foot.place) / distance) : face;
   const double sign = normal.dot(face) >= 0 ? 1.0 : -1.0;
-  const Vec3 slope = sign / point.sigma * normal;
+  slope = sign * normal;
+  return sign * distance;
+}
+
+/// `about`: where the distance is taken, from the point; the mean counts.
+void compare_surface(const SurfacePoint& point, const Triangles& triangles,
+                     const std::vector<Vec3>& about, const Positions& x, const MovedTarget& moved,
+                     Builder& rows) {
+  // Few hundred faces against few hundred points: a tree over a moving surface would not pay.
+  const Vec3 q = moved(point.position);
+  std::vector<double> square(triangles.size());
+  size_t nearest = 0;
+  Foot foot{{}, Vec3::Zero(), std::numeric_limits<double>::infinity()};
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    const Foot f = foot_on(q, triangles[t], x);
+    square[t] = f.square;
+    if (f.square < foot.square) foot = f, nearest = t;
+  }
+  std::vector<size_t> near{nearest};
+  if (about.size() > 1) {
+    const double within = std::sqrt(foot.square) + 2.01 * about.front().norm();
+    near.clear();
+    for (size_t t = 0; t < triangles.size(); ++t)
+      if (square[t] <= within * within) near.push_back(t);
+  }
+  const double share = 1 / (point.sigma * double(about.size()));
+  double r = 0;
+  Vec3 slope = Vec3::Zero();
   std::vector<std::pair<int, Vec3>> gradient;
-  for (int k = 0; k < 3; ++k) gradient.emplace_back(n[size_t(k)], -weight[size_t(k)] * slope);
-  rows.row(sign * distance / point.sigma, std::move(gradient), Vec2(q[0], q[2]),
-           Vec2(slope[0], slope[2]), point.sigma);
-  rows.point(distance, foot);
+  for (const Vec3& offset : about) {
+    const Vec3 p = q + offset;
+    size_t best = near.front();
+    Foot least = foot_on(p, triangles[best], x);
+    for (size_t k = 1; k < near.size(); ++k)
+      if (const Foot f = foot_on(p, triangles[near[k]], x); f.square < least.square)
+        least = f, best = near[k];
+    Vec3 direction;
+    r += share * signed_distance(p, triangles[best], least, x, direction);
+    slope += share * direction;
+    for (size_t k = 0; k < 3; ++k) {
+      const int node = triangles[best][k];
+      const Vec3 g = -least.weight[k] * share * direction;
+      const auto known = std::find_if(gradient.begin(), gradient.end(),
+                                      [&](const auto& entry) { return entry.first == node; });
+      if (known == gradient.end()) gradient.emplace_back(node, g);
+      else known->second += g;
+    }
+  }
+  rows.row(r, std::move(gradient), Vec2(q[0], q[2]), Vec2(slope[0], slope[2]), point.sigma);
+  rows.point(std::abs(r) * point.sigma, foot.place);
+}
+
+/// The corners of an icosahedron of radius r, or its middle where that is 0.
+std::vector<Vec3> icosahedron(double r) {
+  if (r == 0) return {Vec3::Zero()};
+  std::vector<Vec3> corners;
+  const double golden = std::numbers::phi, size = r / std::hypot(1.0, golden);
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-golden, golden}) {
+      corners.push_back(size * Vec3(0, a, b));
+      corners.push_back(size * Vec3(a, b, 0));
+      corners.push_back(size * Vec3(b, 0, a));
+    }
+  return corners;
 }
 
 }  // namespace
 
-Comparison::Comparison(const Model& model, Target target)
-    : target_(std::move(target)), line_(model), rest_(model.rest), middle_(target_.middle()) {
+Comparison::Comparison(const Model& model, Target target, double smoothing)
+    : target_(std::move(target)),
+      line_(model),
+      rest_(model.rest),
+      about_(icosahedron(smoothing)),
+      middle_(target_.middle()) {
   if (!target_.surface.empty())
     for (const Quad& q : model.surface) {
       triangles_.push_back({q[0], q[1], q[2]});
@@ -147,7 +213,8 @@ Residuals Comparison::operator()(const Positions& x, const HeadPose& pose) const
   Builder rows(moved, target_.outlier_dof);
   for (const auto& point : target_.curve) compare_curve(point, line_, x, moved, rows);
   for (const auto& point : target_.flesh) compare_flesh(point, x, moved, rows);
-  for (const auto& point : target_.surface) compare_surface(point, triangles_, x, moved, rows);
+  for (const auto& point : target_.surface)
+    compare_surface(point, triangles_, about_, x, moved, rows);
   return std::move(rows).result();
 }
 

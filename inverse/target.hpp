@@ -91,7 +91,10 @@ struct Residuals {
 /// Compares shapes with a target. Const; serves any number of threads.
 class Comparison {
  public:
-  Comparison(const Model& model, Target target);
+  /// `smoothing` [m]: a surface point's signed distance is the mean over twelve places that far
+  /// about it. Faces meet at edges, and with hundreds of points each of which has to cross some, a
+  /// descent would stop at every other edge; curvature() knows of no smoothing.
+  Comparison(const Model& model, Target target, double smoothing = 0);
   Residuals operator()(const Positions& x, const HeadPose& pose = {}) const;
   /// sum_k value_k d2 value_k, what Gauss-Newton leaves out of the second derivatives of the
   /// misfit, over the 3 n nodal positions and then the pose (shift x, shift z, turn): entries of
@@ -109,6 +112,7 @@ class Comparison {
   TongueLine line_;
   Positions rest_;
   std::vector<std::array<int, 3>> triangles_;  // of the surface
+  std::vector<Vec3> about_;                    // where a surface point's distance is taken, from it
   std::vector<int> nodes_;
   Vec2 middle_;
 };

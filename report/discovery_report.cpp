@@ -54,6 +54,7 @@ Json round_json(const Round& round) {
                           {"detectable_of_typical", r.score.detectable},
                           {"refitted", r.refitted},
                           {"log_odds", r.log_odds},
+                          {"heldout_gain", r.heldout_gain},
                           {"probability", r.probability},
                           {"message", r.message}});
   }

@@ -62,7 +62,40 @@ TEST(BoxGaussian, FarFromItsModeIsStillAboutItsCentre) {
 
 TEST(BoxGaussian, LogIntegralIsThatOfTheLimits) {
   EXPECT_NEAR(log_integral(one(0.5, 0, 1e4, 0, 1)), 0.5 * std::log(2 * M_PI / 1e4), 1e-12);
-  EXPECT_NEAR(log_integral(one(0, 1e3, 1, 0, 1)), -std::log(1e3), 1e-12);
+  EXPECT_NEAR(log_integral(one(0, 1e3, 1, 0, 1)), -std::log(1e3), 2e-6);
+  EXPECT_NEAR(log_integral(one(0, 1e6, 1, 0, 1)), -std::log(1e6), 2e-5);
+  // Half of it, and all but a bound's share.
+  EXPECT_NEAR(log_integral(one(0, 0, 1e4, 0, 1)), 0.5 * std::log(2 * M_PI / 1e4) - M_LN2, 1e-9);
+  EXPECT_NEAR(log_integral(one(0.01, 0, 1e4, 0, 1)),
+              0.5 * std::log(2 * M_PI / 1e4) + std::log(1 - 0.5 * std::erfc(M_SQRT1_2)), 1e-9);
+  EXPECT_NEAR(log_integral(one(0.5, 0, 1e-8, 0, 1)), 0, 1e-8);  // as good as even
+}
+
+TEST(Evidence, CountsWhatBoundsCutOffCorrelatedUnknowns) {
+  // The orthant of two unknowns of correlation r holds 1/4 + asin(r) / (2 pi).
+  for (double r : {-0.9, -0.5, 0.5, 0.9}) {
+    Matrix covariance(2, 2);
+    covariance << 1, r, r, 1;
+    const BoxGaussian g{Vector::Zero(2), Vector::Zero(2), covariance.inverse(), Vector::Zero(2),
+                        Vector::Constant(2, 50)};
+    const double mass = 0.25 + std::asin(r) / (2 * M_PI);
+    EXPECT_NEAR(log_integral(g),
+                std::log(2 * M_PI) + 0.5 * std::log(covariance.determinant()) + std::log(mass),
+                0.04)
+        << r;
+  }
+}
+
+TEST(Evidence, IsThatOfEqualCorrelationsInTenUnknowns) {
+  // Of correlation 1/2 the orthant holds 1 / (n + 1), as the largest of n + 1 equals is any.
+  constexpr int n = 10;
+  const Matrix covariance = 0.5 * (Matrix::Identity(n, n) + Matrix::Ones(n, n));
+  const BoxGaussian g{Vector::Zero(n), Vector::Zero(n), covariance.inverse(), Vector::Zero(n),
+                      Vector::Constant(n, 50)};
+  EXPECT_NEAR(
+      log_integral(g),
+      0.5 * n * std::log(2 * M_PI) + 0.5 * std::log(covariance.determinant()) - std::log(n + 1),
+      0.05);
 }
 
 TEST(Marginal, FarFromBoundsIsCentral) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "inverse/curvature.hpp"
 #include "inverse/infer.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
@@ -36,6 +38,35 @@ class TargetTest : public test::PulledTongue {
   }
 };
 
+TEST_F(TargetTest, SmoothingEvensOutTheKinksBetweenFacesAndLittleElse) {
+  // From one side of the middle of every quad to the other, along its second diagonal.
+  double exact = 0, smoothed = 0, off = 0;
+  for (const Quad& q : m.surface) {
+    const Vec3 a = node_position(m.rest, q[0]), b = node_position(m.rest, q[1]),
+               c = node_position(m.rest, q[2]), d = node_position(m.rest, q[3]);
+    const Vec3 middle = 0.5 * (a + c), normal = (c - a).cross(d - b).normalized();
+    const auto seen = [&](const Vec3& at, double smoothing) {
+      Target t;
+      t.surface.push_back({at + 2e-4 * normal, 1e-3});
+      return Comparison(m, t, smoothing)(m.rest);
+    };
+    const Vec3 across = 1e-4 * (b - d).normalized();
+    const auto jump = [&](double smoothing) {
+      const auto slope = [&](const Vec3& at) {
+        Vec3 sum = Vec3::Zero();
+        for (const auto& [node, g] : seen(at, smoothing).gradient[0]) sum -= 1e-3 * g;
+        return sum;
+      };
+      return (slope(middle + across) - slope(middle - across)).norm();
+    };
+    exact = std::max(exact, jump(0)), smoothed = std::max(smoothed, jump(1.5e-3));
+    off = std::max(off, std::abs(seen(middle, 1.5e-3).values[0] - seen(middle, 0).values[0]));
+  }
+  EXPECT_GT(exact, 0.2);
+  EXPECT_LT(smoothed, 0.3 * exact);
+  EXPECT_LT(1e-3 * off, 3e-4);
+}
+
 TEST_F(TargetTest, ATissuePointIsWhereItWasTaken) {
   const auto shares = tissue_point(m.mesh, inner());
   double sum = 0;
@@ -46,10 +77,10 @@ TEST_F(TargetTest, ATissuePointIsWhereItWasTaken) {
 }
 
 TEST_F(TargetTest, ResidualsHaveTheirOwnDerivatives) {
-  for (const double dof : {0.0, 4.0}) {
+  for (const auto& [dof, smoothing] : {std::pair(0.0, 0.0), {4.0, 0.0}, {0.0, 1.5e-3}}) {
     Target t = mixed();
     t.outlier_dof = dof;
-    const Comparison compare(m, t);
+    const Comparison compare(m, t, smoothing);
     const HeadPose pose{Vec2(5e-4, -3e-4), 0.02};
     const Residuals r = compare(m.rest, pose);
     const Vector d = 1e-3 * Vector::Random(m.rest.size());

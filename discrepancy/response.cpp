@@ -1,0 +1,42 @@
+#include "discrepancy/response.hpp"
+
+#include <algorithm>
+
+namespace genio {
+namespace {
+
+constexpr double at_bound = 2e-4;  // an unknown this near a bound sits at it
+
+}  // namespace
+
+std::vector<FittedCondition> response(const JointFit& f, const Errors& errors,
+                                      const Vector& change) {
+  const auto whitened = [&](const Matrix& m) {
+    return errors.covariance.matrixL().solve(m).eval();
+  };
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < f.own; ++i)
+    if (f.u[i] > f.lower[i] + at_bound && f.u[i] < f.upper[i] - at_bound) free.push_back(i);
+  std::vector<FittedCondition> moved = f.conditions;
+  if (free.empty()) return moved;
+  const Matrix j = whitened(f.jacobian()(Eigen::all, free)), a = f.prior_rows(Eigen::all, free);
+  const Vector slope = j.transpose() * whitened(change);
+  Vector u = f.u;
+  u(free) -= Matrix(j.transpose() * j + a.transpose() * a).llt().solve(slope);
+  u = u.cwiseMax(f.lower).cwiseMin(f.upper);
+  for (FittedCondition& c : moved) c.z = u(c.which);
+  return moved;
+}
+
+std::vector<FittedCondition> without(const Candidate& candidate, const JointFit& f,
+                                     const Errors& errors) {
+  const FittedCondition& first = f.conditions.front();
+  Vector step = Vector::Zero(f.u.size());
+  for (const FreeNumber& n : candidate.strengths)
+    for (size_t i = 0; i < first.commands.size(); ++i)
+      if (first.commands[i].name == candidate.effect + "." + n.name)
+        step[first.which[i]] = n.info.absent / first.commands[i].scale - first.z[Eigen::Index(i)];
+  return response(f, errors, f.jacobian() * step);
+}
+
+}  // namespace genio
