@@ -89,14 +89,43 @@ Vector start_of(const FittedCondition& before, const std::vector<Command>& comma
   return z;
 }
 
-double log_prior_mass(const Matrix& rows, const Vector& values, const JointFit& f,
-                      const std::vector<Eigen::Index>& open) {
-  const Matrix a = rows(Eigen::all, open);
+/// Of each unknown's share of the prior between its bounds, for unknowns that the prior takes one
+/// by one; and of all together.
+struct PriorMass {
+  double log_all = 0;
+  Vector each;
+};
+
+PriorMass prior_mass(const JointFit& f, const std::vector<Eigen::Index>& open) {
+  const Matrix a = f.prior_rows(Eigen::all, open);
   const Matrix h = a.transpose() * a;
   Vector fixed = f.u;
   for (auto i : open) fixed[i] = 0;
-  const Vector centre = h.llt().solve(a.transpose() * (values - rows * fixed));
-  return log_integral(about(centre, h, f.lower(open), f.upper(open)));
+  const Vector centre = h.llt().solve(a.transpose() * (f.prior_values - f.prior_rows * fixed));
+  const BoxGaussian prior = about(centre, h, f.lower(open), f.upper(open));
+  PriorMass mass{log_integral(prior), Vector::Zero(Eigen::Index(open.size()))};
+  for (Eigen::Index i = 0; i < mass.each.size(); ++i)
+    mass.each[i] = std::exp(
+        log_integral({prior.mode.segment(i, 1), prior.slope.segment(i, 1), h.block(i, i, 1, 1),
+                      prior.lower.segment(i, 1), prior.upper.segment(i, 1)}));
+  return mass;
+}
+
+/// Point masses of the prior at rest: a muscle that nothing is known of rests as often as it pulls.
+/// Without them, whatever makes resting muscles seem to pull a little would be believed in.
+Vector spikes_at_rest(const Study& study, const JointFit& f, const std::vector<Eigen::Index>& open,
+                      const PriorMass& mass) {
+  std::vector<bool> may_rest(size_t(f.u.size()), false);
+  for (size_t k = 0; k < f.conditions.size(); ++k) {
+    if (study.condition(k).forces) continue;
+    const FittedCondition& c = f.conditions[k];
+    for (size_t i = 0; i < c.commands.size(); ++i)
+      if (c.commands[i].kind == Command::Kind::muscle) may_rest[size_t(c.which[i])] = true;
+  }
+  Vector spikes = Vector::Zero(Eigen::Index(open.size()));
+  for (size_t i = 0; i < open.size(); ++i)
+    if (may_rest[size_t(open[i])]) spikes[Eigen::Index(i)] = mass.each[Eigen::Index(i)];
+  return spikes;
 }
 
 /// t > 0 that a density exp(-slope t - t^2 / (2 sd^2)) on t >= 0 exceeds once in ten.
@@ -217,8 +246,10 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
   BoxGaussian density{f.u(open), slope, h, f.lower(open), f.upper(open)};
   for (Eigen::Index i = 0; i < slope.size(); ++i)
     if (pressed(density, i) == 0) density.slope[i] = 0;
-  f.log_evidence = -f.value + log_integral(density) -
-                   log_prior_mass(problem.prior_rows(), problem.prior_values(), f, open);
+  const PriorMass mass = prior_mass(f, open);
+  const Vector spikes = spikes_at_rest(study, f, open, mass);
+  f.log_evidence = -f.value + log_integral(density, spikes) - mass.log_all -
+                   double((spikes.array() > 0).count()) * std::numbers::ln2;
   summarise_shared(f, study.model(0), density, open);
   return f;
 }

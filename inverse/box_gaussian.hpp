@@ -30,4 +30,8 @@ Matrix sample(const BoxGaussian& density, int count);
 /// Logarithm of the integral of the density between its bounds, H positive definite.
 double log_integral(const BoxGaussian& density);
 
+/// The same with a point mass at each lower bound beside the even measure between the bounds:
+/// `spikes`, 0 for none [length of the unknown].
+double log_integral(const BoxGaussian& density, const Vector& spikes);
+
 }  // namespace genio

@@ -60,6 +60,21 @@ Moments within(double mean, double variance, double lower, double upper) {
   return m;
 }
 
+/// Moments of that normal under the even measure between its bounds and a point mass at the lower.
+Moments with_spike(double mean, double variance, double lower, double upper, double spike) {
+  const Moments box = within(mean, variance, lower, upper);
+  if (spike <= 0) return box;
+  const double off = lower - mean;
+  const double log_spike = std::log(spike) - 0.5 * std::log(2 * std::numbers::pi * variance) -
+                           0.5 * off * off / variance;
+  const double most = std::max(box.log_mass, log_spike);
+  const double sum = std::exp(box.log_mass - most) + std::exp(log_spike - most);
+  const double part = std::exp(box.log_mass - most) / sum;  // of the box
+  const double apart = box.mean - lower;
+  return {most + std::log(sum), lower + part * apart,
+          part * box.variance + part * (1 - part) * apart * apart};
+}
+
 /// log of the integral of exp(shift y - precision y^2 / 2), but for log(2 pi) / 2.
 double log_normaliser(double shift, double precision) {
   return 0.5 * shift * shift / precision - 0.5 * std::log(precision);
@@ -67,7 +82,9 @@ double log_normaliser(double shift, double precision) {
 
 }  // namespace
 
-double log_integral(const BoxGaussian& g) {
+double log_integral(const BoxGaussian& g) { return log_integral(g, Vector::Zero(g.mode.size())); }
+
+double log_integral(const BoxGaussian& g, const Vector& spikes) {
   const Eigen::Index n = g.mode.size();
   if (n == 0) return 0;
   Vector precision = Vector::Zero(n), shift = Vector::Zero(n);  // of each unknown's stand-in
@@ -83,7 +100,8 @@ double log_integral(const BoxGaussian& g) {
       sum -= log_normaliser(mean[i] * here, here);
       // What the others say of it.
       const double p = here - precision[i], s = mean[i] * here - shift[i];
-      const Moments m = within(s / p, 1 / p, g.lower[i] - g.mode[i], g.upper[i] - g.mode[i]);
+      const Moments m =
+          with_spike(s / p, 1 / p, g.lower[i] - g.mode[i], g.upper[i] - g.mode[i], spikes[i]);
       sum += m.log_mass + log_normaliser(s, p);
     }
     const bool settled = std::abs(sum - result) < tolerance;
@@ -92,7 +110,8 @@ double log_integral(const BoxGaussian& g) {
     for (Eigen::Index i = 0; i < n; ++i) {
       const double here = 1 / covariance(i, i);
       const double p = here - precision[i], s = mean[i] * here - shift[i];
-      const Moments m = within(s / p, 1 / p, g.lower[i] - g.mode[i], g.upper[i] - g.mode[i]);
+      const Moments m =
+          with_spike(s / p, 1 / p, g.lower[i] - g.mode[i], g.upper[i] - g.mode[i], spikes[i]);
       const double dp = std::max(0.0, 1 / m.variance - p) - precision[i];
       const double ds = m.mean / m.variance - s - shift[i];
       precision[i] += dp, shift[i] += ds;

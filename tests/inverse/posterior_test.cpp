@@ -86,6 +86,26 @@ TEST(Evidence, CountsWhatBoundsCutOffCorrelatedUnknowns) {
   }
 }
 
+TEST(Evidence, CountsAPointMassAtABound) {
+  // By itself, and of two unknowns that trade: four cases, each an integral by itself.
+  const double h = 1e4, spike = 0.05, between = std::sqrt(2 * M_PI / h);
+  EXPECT_NEAR(log_integral(one(0, 0, h, 0, 1), Vector::Constant(1, spike)),
+              std::log(0.5 * between + spike), 1e-6);
+  Matrix hessian(2, 2);
+  hessian << 900, 300, 300, 400;
+  const Vector slope = Vector::Constant(2, -20), spikes = Vector::Constant(2, 0.1);
+  const auto box = [&](const std::vector<Eigen::Index>& which) {
+    const auto n = Eigen::Index(which.size());
+    return std::exp(log_integral({Vector::Zero(n), slope(which), hessian(which, which),
+                                  Vector::Zero(n), Vector::Constant(n, 1)}));
+  };
+  const double all = box({0, 1}) + 0.1 * box({0}) + 0.1 * box({1}) + 0.01;
+  EXPECT_NEAR(
+      log_integral({Vector::Zero(2), slope, hessian, Vector::Zero(2), Vector::Constant(2, 1)},
+                   spikes),
+      std::log(all), 0.05);
+}
+
 TEST(Evidence, IsThatOfEqualCorrelationsInTenUnknowns) {
   // Of correlation 1/2 the orthant holds 1 / (n + 1), as the largest of n + 1 equals is any.
   constexpr int n = 10;

@@ -54,7 +54,8 @@ TEST_F(TargetTest, SmoothingEvensOutTheKinksBetweenFacesAndLittleElse) {
     const auto jump = [&](double smoothing) {
       const auto slope = [&](const Vec3& at) {
         Vec3 sum = Vec3::Zero();
-        for (const auto& [node, g] : seen(at, smoothing).gradient[0]) sum -= 1e-3 * g;
+        const Residuals r = seen(at, smoothing);
+        for (const auto& [node, g] : r.gradient[0]) sum -= 1e-3 * g;
         return sum;
       };
       return (slope(middle + across) - slope(middle - across)).norm();
@@ -64,7 +65,7 @@ TEST_F(TargetTest, SmoothingEvensOutTheKinksBetweenFacesAndLittleElse) {
   }
   EXPECT_GT(exact, 0.2);
   EXPECT_LT(smoothed, 0.3 * exact);
-  EXPECT_LT(1e-3 * off, 3e-4);
+  EXPECT_LT(1e-3 * off, 5e-4);  // where the tongue is bent most
 }
 
 TEST_F(TargetTest, ATissuePointIsWhereItWasTaken) {
