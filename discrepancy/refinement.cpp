@@ -7,7 +7,7 @@
 namespace genio {
 namespace {
 
-constexpr double tolerance = 1e-5;
+constexpr double tolerance = 1e-4;
 constexpr const char* of_muscles = "muscles.";
 constexpr double nearby = 1e-3;  // of any node, between shapes of one correction [m]
 

@@ -16,6 +16,7 @@ constexpr double far = 30;          // standard deviations: the tail is an expon
 constexpr double flat = 1e-3;       // standard deviations: the density between the bounds is even
 constexpr double tolerance = 1e-5;  // of the logarithm
 constexpr int most_sweeps = 50;
+constexpr int calm = 10;  // sweeps, after which steps are halved: point masses may swing
 
 /// log of the standard normal's mass beyond a.
 double log_tail(double a) {
@@ -107,13 +108,15 @@ double log_integral(const BoxGaussian& g, const Vector& spikes) {
     const bool settled = std::abs(sum - result) < tolerance;
     result = sum;
     if (sweep > 0 && settled) break;
+    const double part = sweep < calm ? 1 : 0.5;
     for (Eigen::Index i = 0; i < n; ++i) {
       const double here = 1 / covariance(i, i);
       const double p = here - precision[i], s = mean[i] * here - shift[i];
       const Moments m =
           with_spike(s / p, 1 / p, g.lower[i] - g.mode[i], g.upper[i] - g.mode[i], spikes[i]);
-      const double dp = std::max(0.0, 1 / m.variance - p) - precision[i];
-      const double ds = m.mean / m.variance - s - shift[i];
+      double dp = std::max(0.0, 1 / m.variance - p) - precision[i];
+      double ds = m.mean / m.variance - s - shift[i];
+      dp *= part, ds *= part;
       precision[i] += dp, shift[i] += ds;
       // Sherman & Morrison 1950, and the mean along with it.
       const Vector column = covariance.col(i);
