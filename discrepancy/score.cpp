@@ -148,7 +148,8 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     Vector typical(count);
     for (Eigen::Index i = 0; i < count; ++i) typical[i] = strengths[size_t(i)].info.typical;
     // By one typical strength.
-    const Matrix change = signature(candidates[c], study, fit, influences) * typical.asDiagonal();
+    s.signature = signature(candidates[c], study, fit, influences);
+    const Matrix change = s.signature * typical.asDiagonal();
     s.moves = change.squaredNorm() > invisible * invisible;
     const Matrix g = projection(change);
     s.estimate = Vector::Zero(count), s.sd = Vector::Zero(count);

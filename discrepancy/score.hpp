@@ -52,6 +52,7 @@ struct Score {
   double log_evidence = 0;  ///< gain over nothing, to second order, typical strengths believed
   Vector estimate, sd;      ///< of the strengths, by one step
   double detectable = 0;    ///< times its typical strength: seen nine times in ten
+  Matrix signature;         ///< see signature()
   Vector direction;         ///< its whitened, projected signature, of unit length
 };
 

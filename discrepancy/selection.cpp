@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "discrepancy/response.hpp"
+
 namespace genio {
 namespace {
 
@@ -56,7 +58,17 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
     a.study = std::make_shared<Study>(a.description, evidence.observations,
                                       fitted_conditions(evidence.observations));
     for (double farthest : {far_start, near_start}) {
-      FitOptions options{&base.fit.conditions, starts(candidate, score, farthest)};
+      FitOptions options;
+      options.shared_start = starts(candidate, score, farthest);
+      // The commands start where, to first order, they answer to it.
+      Vector step(score.signature.cols());
+      for (size_t i = 0; i < candidate.strengths.size(); ++i) {
+        const FreeNumber& n = candidate.strengths[i];
+        step[Eigen::Index(i)] =
+            options.shared_start.at(candidate.effect + "." + n.name) - n.info.absent;
+      }
+      const auto start = response(base.fit, evidence.fitted, score.signature * step);
+      options.start = &start;
       options.hopeless = hopeless;
       a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
       if (a.fit.u.size() > 0) break;  // else no equilibrium that far
