@@ -158,7 +158,7 @@ class Search {
       const double gain = accounts[i].fit.log_evidence - base_.fit.log_evidence;
       r.log_odds = gain + prior[scores[i].candidate];
       if (gain < gained - hopeless) continue;
-      fit_heldout(accounts[i], base_.heldout, evidence_);
+      fit_heldout(accounts[i], heldout_start(accounts[i], r.candidate), evidence_);
       if (accounts[i].heldout.conditions.size() != base_.heldout.conditions.size()) {
         r.message = "does not reach the conditions held out: " + accounts[i].heldout.message;
         tell("    " + r.message);
@@ -168,8 +168,9 @@ class Search {
       refitted.push_back(i);
       r.heldout_gain = heldout_gain(accounts[i]);
       r.log_odds = odds(accounts[i]) + prior[scores[i].candidate];
-      tell(fmt::format("    log odds {:.1f}, chi2 {:.0f} of {:.0f}", r.log_odds,
-                       accounts[i].chi_square, accounts[i].dof));
+      tell(
+          fmt::format("    log odds {:.1f} ({:+.1f} by conditions held out), chi2 {:.0f} of {:.0f}",
+                      r.log_odds, r.heldout_gain, accounts[i].chi_square, accounts[i].dof));
     }
     size_t best = weigh(round, refitted);
     if (!refitted.empty() && round.nothing < options_.nothing &&
@@ -184,6 +185,19 @@ class Search {
     if (go_on) accept(round, best, accounts);
     d_.rounds.push_back(std::move(round));
     return go_on;
+  }
+
+  /// Where the commands of the held-out conditions answer to what an account adds.
+  std::vector<FittedCondition> heldout_start(const Account& a, const Candidate& added) const {
+    if (!base_.heldout_study) return {};
+    Vector step = Vector::Zero(Eigen::Index(added.strengths.size()));
+    for (size_t i = 0; i < added.strengths.size(); ++i)
+      for (const SharedEstimate& e : a.fit.shared)
+        if (e.name == added.effect + "." + added.strengths[i].name)
+          step[Eigen::Index(i)] = e.value - added.strengths[i].info.absent;
+    const auto influences = influences_of(*base_.heldout_study, base_.heldout);
+    const Matrix s = signature(added, *base_.heldout_study, base_.heldout, influences);
+    return response(base_.heldout, evidence_.heldout, s * step);
   }
 
   /// Log evidence of an account over the base's, on all data.
@@ -248,7 +262,7 @@ class Search {
     base_.heldout_study = account.heldout_study, base_.heldout = account.heldout;
     for (int times = 0; times < 2; ++times) {
       Account next = base_;
-      fit_heldout(next, base_.heldout, evidence_);
+      fit_heldout(next, base_.heldout.conditions, evidence_);
       if (next.heldout.conditions.size() != base_.heldout.conditions.size()) break;
       base_.heldout_study = next.heldout_study, base_.heldout = std::move(next.heldout);
       if (times == 0)

@@ -107,14 +107,14 @@ ModelDescription with_fitted(ModelDescription d, const JointFit& fit) {
   return d;
 }
 
-void fit_heldout(Account& a, const JointFit& start, const Evidence& evidence) {
+void fit_heldout(Account& a, const std::vector<FittedCondition>& start, const Evidence& evidence) {
   const auto members = heldout_conditions(evidence.observations);
   if (members.empty()) return;
   a.heldout_study =
       std::make_shared<Study>(with_fitted(a.description, a.fit), evidence.observations, members);
   // A head pose that all data were laid with is no parameter of the model, but as little free.
   SharedPrior shared;
-  FitOptions options{&start.conditions};
+  FitOptions options{&start};
   shared.head_pose = a.shared.head_pose;
   for (const SharedEstimate& e : a.fit.shared)
     if (a.shared.head_pose && e.name.starts_with("head_pose")) options.fixed[e.name] = e.value;

@@ -33,8 +33,9 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
               const Evidence& evidence, double hopeless);
 
 /// Fits the held-out conditions under an account, its shared parameters at their fitted values,
-/// from where `start` ended. Nothing where none are held out.
-void fit_heldout(Account& account, const JointFit& start, const Evidence& evidence);
+/// from `start`. Nothing where none are held out.
+void fit_heldout(Account& account, const std::vector<FittedCondition>& start,
+                 const Evidence& evidence);
 
 /// Where shared parameters stand in a description: fitted values written into its effects.
 ModelDescription with_fitted(ModelDescription description, const JointFit& fit);
