@@ -158,7 +158,11 @@ class Search {
       const double gain = accounts[i].fit.log_evidence - base_.fit.log_evidence;
       r.log_odds = gain + prior[scores[i].candidate];
       if (gain < gained - hopeless) continue;
-      fit_heldout(accounts[i], heldout_start(accounts[i], r.candidate), evidence_);
+      if (base_.heldout_study)
+        fit_heldout(accounts[i],
+                    with(r.candidate, accounts[i].fit.shared, *base_.heldout_study, base_.heldout,
+                         evidence_.heldout),
+                    evidence_);
       if (accounts[i].heldout.conditions.size() != base_.heldout.conditions.size()) {
         r.message = "does not reach the conditions held out: " + accounts[i].heldout.message;
         tell("    " + r.message);
@@ -185,19 +189,6 @@ class Search {
     if (go_on) accept(round, best, accounts);
     d_.rounds.push_back(std::move(round));
     return go_on;
-  }
-
-  /// Where the commands of the held-out conditions answer to what an account adds.
-  std::vector<FittedCondition> heldout_start(const Account& a, const Candidate& added) const {
-    if (!base_.heldout_study) return {};
-    Vector step = Vector::Zero(Eigen::Index(added.strengths.size()));
-    for (size_t i = 0; i < added.strengths.size(); ++i)
-      for (const SharedEstimate& e : a.fit.shared)
-        if (e.name == added.effect + "." + added.strengths[i].name)
-          step[Eigen::Index(i)] = e.value - added.strengths[i].info.absent;
-    const auto influences = influences_of(*base_.heldout_study, base_.heldout);
-    const Matrix s = signature(added, *base_.heldout_study, base_.heldout, influences);
-    return response(base_.heldout, evidence_.heldout, s * step);
   }
 
   /// Log evidence of an account over the base's, on all data.

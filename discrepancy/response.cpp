@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "discrepancy/influence.hpp"
+
 namespace genio {
 namespace {
 
@@ -26,6 +28,17 @@ std::vector<FittedCondition> response(const JointFit& f, const Errors& errors,
   u = u.cwiseMax(f.lower).cwiseMin(f.upper);
   for (FittedCondition& c : moved) c.z = u(c.which);
   return moved;
+}
+
+std::vector<FittedCondition> with(const Candidate& candidate,
+                                  const std::vector<SharedEstimate>& estimates, Study& study,
+                                  const JointFit& f, const Errors& errors) {
+  Vector step = Vector::Zero(Eigen::Index(candidate.strengths.size()));
+  for (size_t i = 0; i < candidate.strengths.size(); ++i)
+    for (const SharedEstimate& e : estimates)
+      if (e.name == candidate.effect + "." + candidate.strengths[i].name)
+        step[Eigen::Index(i)] = e.value - candidate.strengths[i].info.absent;
+  return response(f, errors, signature(candidate, study, f, influences_of(study, f)) * step);
 }
 
 std::vector<FittedCondition> without(const Candidate& candidate, const JointFit& f,

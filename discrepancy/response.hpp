@@ -11,6 +11,11 @@ namespace genio {
 std::vector<FittedCondition> response(const JointFit& fit, const Errors& errors,
                                       const Vector& change);
 
+/// The same where a candidate comes in that was fitted to other conditions, with these estimates.
+std::vector<FittedCondition> with(const Candidate& candidate,
+                                  const std::vector<SharedEstimate>& estimates, Study& study,
+                                  const JointFit& fit, const Errors& errors);
+
 /// The same where a candidate that was fitted along goes back to its absent value: where a fit
 /// without it has to start that is to be compared with it.
 std::vector<FittedCondition> without(const Candidate& candidate, const JointFit& fit,

@@ -4,6 +4,7 @@
 
 #include "discrepancy/error_model.hpp"
 #include "discrepancy/influence.hpp"
+#include "discrepancy/response.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {
@@ -108,6 +109,32 @@ TEST_F(Scores, AnEstimateAtItsBoundIsOneThatAModelTakesAndHasAnInterval) {
   EXPECT_GT(joint.shared[0].high, 0.06);
   stiffer.effects["stiff_region"]["factor"] = joint.shared[0].value;
   EXPECT_NO_THROW(build_model(stiffer, "patched"));
+}
+
+TEST_F(Scores, CommandsAnswerToWhatComesInAndGoesAwayAsAFitDoes) {
+  ModelDescription truth = tongue;
+  truth.effects["airway_pressure"] = {{"pressure", 150}};
+  look_at(truth);
+  const auto airway = std::find_if(
+      all.begin(), all.end(), [](const Candidate& c) { return c.effect == "airway_pressure"; });
+  ASSERT_NE(airway, all.end());
+  Study more(airway->hypothesis->added_to(tongue), observations, fitted_conditions(observations));
+  SharedPrior shared;
+  shared.parameters["airway_pressure.pressure"] = {0, 200};
+  const JointFit there = fit(more, shared, &errors, {&f.conditions});
+  ASSERT_TRUE(there.converged) << there.message;
+  const auto apart = [](const std::vector<FittedCondition>& a,
+                        const std::vector<FittedCondition>& b) {
+    double sum = 0;
+    for (size_t k = 0; k < a.size(); ++k) {
+      const auto own = std::min(a[k].z.size(), b[k].z.size());
+      sum += (a[k].z.head(own) - b[k].z.head(own)).squaredNorm();
+    }
+    return std::sqrt(sum);
+  };
+  const double between = apart(there.conditions, f.conditions);
+  EXPECT_LT(apart(without(*airway, there, errors), f.conditions), 0.3 * between);
+  EXPECT_LT(apart(with(*airway, there.shared, *study, f, errors), there.conditions), 0.3 * between);
 }
 
 TEST_F(Scores, ProjectionTakesAwayWhatTheUnknownsCanDo) {
