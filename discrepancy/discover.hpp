@@ -15,9 +15,9 @@ struct DiscoverOptions {
   int refits = 5;        ///< candidates refitted a round
   int most_effects = 3;  ///< rounds
   double certain = 0.9;  ///< probability of one effect that names it
-  /// Largest probability of nothing with which a name is given. Small, as errors that go beyond the
-  /// first order, and an effort that the speaker does not share, count as evidence too.
-  double nothing = 1e-6;
+  /// Largest probability of nothing with which a name is given: errors that go beyond the first
+  /// order count as evidence too. Set by `genio bench discover`.
+  double nothing = 1e-3;
   double fit_level = 1e-3;  ///< of the test that what is left is noise
   std::function<void(const std::string&)> progress;
 };

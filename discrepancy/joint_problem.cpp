@@ -63,7 +63,9 @@ InferOptions starting(const Study& study, size_t k, const FitOptions& fit) {
   InferOptions options;
   options.bilateral = study.bilateral(k);
   if (fit.start) {
-    options.start_shape = (*fit.start)[k].x;
+    // What is held here may have moved under the account that the start is from: an open jaw.
+    const Model& m = study.model(k);
+    options.start_shape = m.rest + m.dofs.expand(m.dofs.pick((*fit.start)[k].x - m.rest));
     options.start_factorizations = start_factorizations;
   }
   return options;

@@ -137,6 +137,21 @@ TEST_F(Scores, CommandsAnswerToWhatComesInAndGoesAwayAsAFitDoes) {
   EXPECT_LT(apart(with(*airway, there.shared, *study, f, errors), there.conditions), 0.3 * between);
 }
 
+TEST_F(Scores, AFitFromAnOpenJawHasItsJawShut) {
+  ModelDescription open = tongue;
+  open.effects["jaw_opening"] = {{"angle", 1}};
+  const Observations seen = observed(open, true);
+  const auto conditions = fitted_conditions(seen);
+  Study shut(tongue, seen, conditions), opened(open, seen, conditions);
+  const JointFit before = fit(shut, {}, nullptr);
+  const JointFit there = fit(opened, {}, nullptr, {&before.conditions});
+  ASSERT_TRUE(before.converged && there.converged) << before.message << there.message;
+  const JointFit after = fit(shut, {}, nullptr, {&there.conditions});
+  ASSERT_TRUE(after.converged) << after.message;
+  EXPECT_NEAR(after.value, before.value, 1e-2 * before.value);
+  EXPECT_GT(after.value, 1.5 * there.value);
+}
+
 TEST_F(Scores, ProjectionTakesAwayWhatTheUnknownsCanDo) {
   look_at(tongue);
   const Projection projection(f, errors.covariance);
