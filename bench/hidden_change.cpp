@@ -179,7 +179,8 @@ HiddenChange tether(const ModelDescription& d, std::mt19937& random) {
   const Vec3 at = on_dorsum(d, random);
   const Vec3 anchor = at + Vec3(-0.01, 0.03, 0.01);
   HiddenChange c;
-  c.effect = "tether", c.in_library = false, c.symmetric = false, c.drawn = true, c.first = 30, c.most = 3000;
+  c.effect = "tether", c.in_library = false, c.symmetric = false, c.drawn = true, c.first = 30,
+  c.most = 3000;
   c.truth = c.shipped = [](ModelDescription t, double) { return t; };
   c.by_hand = [=](Model& m, double s) {
     m.effects.push_back(

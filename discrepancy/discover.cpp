@@ -141,6 +141,11 @@ class Search {
     std::vector<size_t> refitted;
     double gained = 0;  // by the best refit, of log evidence
     const Account* best_yet = nullptr;
+    std::vector<Matrix> heldout_influences;  // once something is refitted
+    const auto take_odds = [&](size_t i) {
+      round.candidates[i].heldout_gain = heldout_gain(accounts[i]);
+      round.candidates[i].log_odds = odds(accounts[i]) + prior[scores[i].candidate];
+    };
     for (size_t i : worth_a_refit(all, scores, prior, options_.refits)) {
       Ranked& r = round.candidates[i];
       // What a straight line puts this far behind no refit brings to the front.
@@ -158,11 +163,14 @@ class Search {
       const double gain = accounts[i].fit.log_evidence - base_.fit.log_evidence;
       r.log_odds = gain + prior[scores[i].candidate];
       if (gain < gained - hopeless) continue;
-      if (base_.heldout_study)
+      if (base_.heldout_study) {
+        if (heldout_influences.empty())
+          heldout_influences = influences_of(*base_.heldout_study, base_.heldout);
         fit_heldout(accounts[i],
                     with(r.candidate, accounts[i].fit.shared, *base_.heldout_study, base_.heldout,
-                         evidence_.heldout),
+                         evidence_.heldout, heldout_influences),
                     evidence_);
+      }
       if (accounts[i].heldout.conditions.size() != base_.heldout.conditions.size()) {
         r.message = "does not reach the conditions held out: " + accounts[i].heldout.message;
         tell("    " + r.message);
@@ -170,8 +178,7 @@ class Search {
       }
       if (gain > gained || !best_yet) gained = std::max(gain, gained), best_yet = &accounts[i];
       refitted.push_back(i);
-      r.heldout_gain = heldout_gain(accounts[i]);
-      r.log_odds = odds(accounts[i]) + prior[scores[i].candidate];
+      take_odds(i);
       tell(
           fmt::format("    log odds {:.1f} ({:+.1f} by conditions held out), chi2 {:.0f} of {:.0f}",
                       r.log_odds, r.heldout_gain, accounts[i].chi_square, accounts[i].dof));
@@ -179,10 +186,7 @@ class Search {
     size_t best = weigh(round, refitted);
     if (!refitted.empty() && round.nothing < options_.nothing &&
         follow(accounts[best], round.candidates[best].candidate)) {
-      for (size_t i : refitted) {
-        round.candidates[i].heldout_gain = heldout_gain(accounts[i]);
-        round.candidates[i].log_odds = odds(accounts[i]) + prior[scores[i].candidate];
-      }
+      for (size_t i : refitted) take_odds(i);
       best = weigh(round, refitted);
     }
     const bool go_on = !refitted.empty() && round.nothing < options_.nothing;

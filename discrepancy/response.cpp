@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "discrepancy/influence.hpp"
-
 namespace genio {
 namespace {
 
@@ -31,14 +29,15 @@ std::vector<FittedCondition> response(const JointFit& f, const Errors& errors,
 }
 
 std::vector<FittedCondition> with(const Candidate& candidate,
-                                  const std::vector<SharedEstimate>& estimates, Study& study,
-                                  const JointFit& f, const Errors& errors) {
+                                  const std::vector<SharedEstimate>& estimates, const Study& study,
+                                  const JointFit& f, const Errors& errors,
+                                  const std::vector<Matrix>& influences) {
   Vector step = Vector::Zero(Eigen::Index(candidate.strengths.size()));
   for (size_t i = 0; i < candidate.strengths.size(); ++i)
     for (const SharedEstimate& e : estimates)
       if (e.name == candidate.effect + "." + candidate.strengths[i].name)
         step[Eigen::Index(i)] = e.value - candidate.strengths[i].info.absent;
-  return response(f, errors, signature(candidate, study, f, influences_of(study, f)) * step);
+  return response(f, errors, signature(candidate, study, f, influences) * step);
 }
 
 std::vector<FittedCondition> without(const Candidate& candidate, const JointFit& f,

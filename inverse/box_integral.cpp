@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "inverse/box_gaussian.hpp"
 
@@ -96,27 +97,27 @@ double log_integral(const BoxGaussian& g, const Vector& spikes) {
     Vector total = shift - g.slope;  // of the whole
     Vector mean = covariance * total;
     double sum = 0.5 * total.dot(mean) - Matrix(factor.matrixL()).diagonal().array().log().sum();
-    for (Eigen::Index i = 0; i < n; ++i) {
+    // What the others say of an unknown, and its moments once its own bounds count.
+    const auto others = [&](Eigen::Index i) {
       const double here = 1 / covariance(i, i);
-      sum -= log_normaliser(mean[i] * here, here);
-      // What the others say of it.
       const double p = here - precision[i], s = mean[i] * here - shift[i];
-      const Moments m =
-          with_spike(s / p, 1 / p, g.lower[i] - g.mode[i], g.upper[i] - g.mode[i], spikes[i]);
-      sum += m.log_mass + log_normaliser(s, p);
+      return std::tuple(
+          p, s,
+          with_spike(s / p, 1 / p, g.lower[i] - g.mode[i], g.upper[i] - g.mode[i], spikes[i]));
+    };
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto [p, s, m] = others(i);
+      const double here = 1 / covariance(i, i);
+      sum += m.log_mass + log_normaliser(s, p) - log_normaliser(mean[i] * here, here);
     }
     const bool settled = std::abs(sum - result) < tolerance;
     result = sum;
     if (sweep > 0 && settled) break;
     const double part = sweep < calm ? 1 : 0.5;
     for (Eigen::Index i = 0; i < n; ++i) {
-      const double here = 1 / covariance(i, i);
-      const double p = here - precision[i], s = mean[i] * here - shift[i];
-      const Moments m =
-          with_spike(s / p, 1 / p, g.lower[i] - g.mode[i], g.upper[i] - g.mode[i], spikes[i]);
-      double dp = std::max(0.0, 1 / m.variance - p) - precision[i];
-      double ds = m.mean / m.variance - s - shift[i];
-      dp *= part, ds *= part;
+      const auto [p, s, m] = others(i);
+      const double dp = part * (std::max(0.0, 1 / m.variance - p) - precision[i]);
+      const double ds = part * (m.mean / m.variance - s - shift[i]);
       precision[i] += dp, shift[i] += ds;
       // Sherman & Morrison 1950, and the mean along with it.
       const Vector column = covariance.col(i);

@@ -134,7 +134,8 @@ TEST_F(Scores, CommandsAnswerToWhatComesInAndGoesAwayAsAFitDoes) {
   };
   const double between = apart(there.conditions, f.conditions);
   EXPECT_LT(apart(without(*airway, there, errors), f.conditions), 0.3 * between);
-  EXPECT_LT(apart(with(*airway, there.shared, *study, f, errors), there.conditions), 0.3 * between);
+  EXPECT_LT(apart(with(*airway, there.shared, *study, f, errors, influences), there.conditions),
+            0.3 * between);
 }
 
 TEST_F(Scores, AFitFromAnOpenJawHasItsJawShut) {
