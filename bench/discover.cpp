@@ -99,7 +99,7 @@ std::vector<HiddenCase> discover_cases() {
 }
 
 Json prepare_discover_case(const ModelDescription& tongue, const HiddenCase& c,
-                           const std::string& folder) {
+                           const std::string& folder, KnownShapes& known) {
   const std::string data = data_of(folder, c), answer = folder + "/answers/" + c.name + ".json";
   fs::create_directories(folder + "/answers");
   Json hidden;
@@ -107,15 +107,15 @@ Json prepare_discover_case(const ModelDescription& tongue, const HiddenCase& c,
   if (hidden.contains("failed") || (!hidden.is_null() && fs::exists(data + "/observations.toml")))
     return hidden;
   try {
-    return make_hidden_data(tongue, c, data, answer);
+    return make_hidden_data(tongue, c, data, answer, known);
   } catch (const std::exception& e) {
     return {{"case", c.name}, {"failed", e.what()}};
   }
 }
 
 Json run_discover_case(const ModelDescription& tongue, const HiddenCase& c,
-                       const std::string& folder) {
-  Json result = {{"case", c.name}, {"answer", prepare_discover_case(tongue, c, folder)}};
+                       const std::string& folder, KnownShapes& known) {
+  Json result = {{"case", c.name}, {"answer", prepare_discover_case(tongue, c, folder, known)}};
   if (result["answer"].contains("failed")) return result;
   const std::string data = data_of(folder, c);
   try {

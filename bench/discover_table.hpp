@@ -13,12 +13,12 @@ std::vector<HiddenCase> discover_cases();
 /// Makes the data set of a case below `folder` unless it is there. Returns its answer, or why there
 /// is none (`failed`).
 Json prepare_discover_case(const ModelDescription& tongue, const HiddenCase& what,
-                           const std::string& folder);
+                           const std::string& folder, KnownShapes& known);
 
 /// Runs the discovery on a case, whose data are made where they are not there: its answer, and what
 /// was found or the error.
 Json run_discover_case(const ModelDescription& tongue, const HiddenCase& what,
-                       const std::string& folder);
+                       const std::string& folder, KnownShapes& known);
 
 /// The figures and the confusion matrix of results of run_discover_case().
 Json discover_figures(const std::vector<Json>& results);

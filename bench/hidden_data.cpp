@@ -86,7 +86,7 @@ void write_target(const std::string& path, const std::vector<Measured>& points) 
 }  // namespace
 
 Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
-                      const std::string& folder, const std::string& answer) {
+                      const std::string& folder, const std::string& answer, KnownShapes& known) {
   std::mt19937 random(what.seed);
   const auto all = postures(muscle_commands(build_model(tongue, tongue.name), true),
                             what.fitted + what.heldout, random);
@@ -121,10 +121,16 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
   std::string toml = fmt::format("noise_mm = {}\nnoise_correlation_mm = {}\n", 1e3 * what.noise,
                                  1e3 * what.correlation);
   if (what.forces_known) toml += fmt::format("force_sd_percent = {}\n", 100 * force_error);
-  for (size_t k = 0; k < all.size(); ++k) {
+  std::vector<Positions> shapes;
+  if (what.effects.empty()) shapes = known[what.seed];
+  for (size_t k = shapes.size(); k < all.size(); ++k) {
     const Equilibrium e = fine_shape(fine, rough, all[k], half, ws_rough, ws);
     if (!e) return failed("truth: " + e.message);
-    auto points = seen(fine, e.x, what, changes, noise);
+    shapes.push_back(e.x);
+  }
+  if (what.effects.empty()) known[what.seed] = shapes;
+  for (size_t k = 0; k < all.size(); ++k) {
+    auto points = seen(fine, shapes[k], what, changes, noise);
     add_noise(points, what.noise, what.correlation, noise);
     const std::string name = fmt::format("posture{}", k + 1);
     write_target(folder + "/" + name + ".csv", points);

@@ -6,6 +6,9 @@
 
 namespace genio::bench {
 
+/// Fine shapes of the truths in which nothing is hidden, by seed: every draw of noise is of these.
+using KnownShapes = std::map<unsigned, std::vector<Positions>>;
+
 struct HiddenCase {
   std::string name;                  ///< of its folder
   std::vector<std::string> effects;  ///< none: nothing is hidden
@@ -21,8 +24,8 @@ struct HiddenCase {
 /// Makes the data set: FOLDER/model, FOLDER/observations.toml and its targets, and what is hidden
 /// in `answer` (a file beside the folder, which the workflow never opens). The truth is the tongue
 /// refined by eight with fibres turned by 5 degrees. Returns what the answer says, or why there is
-/// none (`failed`: strength out of reach, no equilibrium).
+/// none (`failed`: strength out of reach, no equilibrium). `known` is looked up and added to.
 Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
-                      const std::string& folder, const std::string& answer);
+                      const std::string& folder, const std::string& answer, KnownShapes& known);
 
 }  // namespace genio::bench

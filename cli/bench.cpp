@@ -10,7 +10,7 @@ namespace genio::cli {
 namespace {
 
 struct BenchOptions {
-  std::string what, model = default_model(), data, target, palate, out;
+  std::string what, model = default_model(), data, target, palate, out, only;
   int sample = 0, threads = 1;
   unsigned seed = 1;
   bool json = false, all = false, only_data = false;
@@ -32,7 +32,7 @@ int run(const BenchOptions& o) {
     j = bench::grenoble_gravity(needed(o.data, "--data", o.what), tell);
   } else if (o.what == "discover") {
     j = bench_discover(o.model, o.out.empty() ? "bench-discover" : o.out, o.sample, o.seed,
-                       o.threads, o.only_data);
+                       o.threads, o.only_data, o.only);
   } else if (o.what == "forward") {
     j = bench::forward(tell);
   } else if (o.what == "verification") {
@@ -80,6 +80,7 @@ Runner add_bench(CLI::App& app) {
   app.add_option("--threads", o->threads, "discover: data sets at a time")
       ->check(CLI::Range(1, 1024));
   app.add_flag("--only-data", o->only_data, "discover: make the data sets, run nothing");
+  app.add_option("--only", o->only, "discover: data sets whose names contain this");
   app.add_option("--seed", o->seed, "discover: which random cases a sample takes");
   app.add_flag("--all", o->all, "ultrasound: every frame, not one a word");
   app.add_option("--out", o->out,

@@ -74,7 +74,9 @@ Refinement::Refinement(ModelDescription description, const Refinement& before)
     : description_(std::move(description)),
       observations_(before.observations_),
       known_(before.known_) {
-  for (auto& [condition, k] : known_) k.fitted.resize(0);
+  // What half a tongue or a head pose leaves as it was keeps its corrections, too.
+  if (description_.effects != before.description_.effects)
+    for (auto& [condition, k] : known_) k.fitted.resize(0);
 }
 
 bool Refinement::holds(const FittedCondition& c, size_t condition) const {

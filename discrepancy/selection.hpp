@@ -6,6 +6,8 @@
 
 namespace genio {
 
+constexpr double hopeless = 30;  ///< units of log posterior behind the best
+
 /// A fit under one account of the data: the model as it is, or with one candidate more.
 struct Account {
   ModelDescription description;  ///< with it, at vanishing strength

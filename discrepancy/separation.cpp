@@ -16,16 +16,19 @@ namespace {
 
 constexpr double command = 0.15;  // activation of a muscle by itself
 constexpr int line_points = 30;
+constexpr double tolerance = 1e-5;   // of shapes
 constexpr double near_zero = 1e-4;   // activation of a muscle known to rest
 constexpr double usual_error = 0.1;  // of a known force, where no condition has one
 
 /// A tongue under one account, in one orientation.
 struct Tongue {
   explicit Tongue(const ModelDescription& d) : model(build_model(d, d.name)), workspace(model) {}
-  Equilibrium posed(const std::map<std::string, double>& forces) {
+  Equilibrium posed(const std::map<std::string, double>& forces, const Positions& start) {
     Parameters p = default_parameters(model);
     for (const auto& [name, f] : forces) set_command(model, name, f, p);
-    return solve_equilibrium(model, p, model.rest, workspace);
+    SolveOptions options;
+    options.tolerance = tolerance;
+    return solve_equilibrium(model, p, start, workspace, options);
   }
   Model model;
   Workspace workspace;
@@ -64,13 +67,16 @@ Target measured(const Model& m, const Positions& x, const HeadPose& laid,
 }
 
 /// Half the squared difference of the shapes that no command of the posture makes up for; negative
-/// where there is none.
+/// where there is none. `start`: near the shapes, then that of `a`.
 double difference(Tongue& a, const HeadPose& a_laid, Tongue& b, const HeadPose& b_laid,
                   const Experiment& e, const Observations& o, const std::vector<int>& nodes,
-                  double known_error) {
+                  double known_error, Positions& start) {
   const bool forces_known = known_error > 0;
-  const Equilibrium x = a.posed(e.forces), y = b.posed(e.forces);
-  if (!x || !y) return -1;
+  const Equilibrium x = a.posed(e.forces, start);
+  if (!x) return -1;
+  start = x.x;
+  const Equilibrium y = b.posed(e.forces, x.x);
+  if (!y) return -1;
   const Target target = measured(b.model, y.x, b_laid, nodes, o.noise);
   const Residuals r = Comparison(a.model, target)(x.x, a_laid);
   const auto commands = muscle_commands(a.model, o.bilateral && !forces_known);
@@ -129,16 +135,20 @@ std::vector<Experiment> experiments(const Explanation& one, const Explanation& o
   const bool weight =
       one.model.effects.contains("gravity") || other.model.effects.contains("gravity");
   std::vector<Experiment> all;
+  std::vector<Positions> starts;  // of each posture, from one orientation to the next
   for (double pitch : weight ? std::vector{0.0, 90.0, -90.0} : std::vector{0.0}) {
     Tongue a(tilted(one.model, pitch)), b(tilted(other.model, pitch));
     const std::vector<int> nodes = seen_nodes(a.model, first);
-    const auto add = [&](Experiment e) {
+    std::vector<Experiment> postures(1);
+    for (const Command& c : muscle_commands(a.model, true))
+      postures.push_back({{{c.name, command * c.scale}}});
+    starts.resize(postures.size(), a.model.rest);
+    for (size_t i = 0; i < postures.size(); ++i) {
+      Experiment& e = postures[i];
       e.pitch = pitch;
-      e.log_odds = difference(a, one.pose, b, other.pose, e, o, nodes, known);
+      e.log_odds = difference(a, one.pose, b, other.pose, e, o, nodes, known, starts[i]);
       all.push_back(std::move(e));
-    };
-    add({});
-    for (const Command& c : muscle_commands(a.model, true)) add({{{c.name, command * c.scale}}});
+    }
   }
   std::erase_if(all, [](const Experiment& e) { return e.log_odds < 0; });
   std::stable_sort(all.begin(), all.end(),

@@ -1,0 +1,132 @@
+#include "discrepancy/base.hpp"
+
+#include "discrepancy/errors.hpp"
+#include "discrepancy/influence.hpp"
+#include "discrepancy/response.hpp"
+#include "discrepancy/symmetric_part.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double rough = 1;  // precision of a first fit, of the log posterior
+constexpr int corrections = 2;
+
+void expect_all(const Study& study, const JointFit& f) {
+  if (f.conditions.size() != study.size())
+    throw InputError("the model does not reach the conditions: " + f.message);
+}
+
+/// The errors at a fit, and the fit under them. Forces that made up for the mesh go back once it
+/// is corrected, and its error with them.
+void settle(Study& study, const SharedPrior& shared, JointFit& f, Errors& errors,
+            Refinement* refinement, const ModelDoubt& doubt) {
+  for (int times = 0; times < corrections; ++times) {
+    expect_all(study, f);
+    errors = errors_at(study, f, refinement, doubt);
+    const bool last = times + 1 == corrections;
+    const auto refit = [&](double precision) {
+      FitOptions options{&f.conditions};
+      options.precision = precision;
+      JointFit next = fit(study, shared, &errors, options);
+      expect_all(study, next);
+      f = std::move(next);
+    };
+    if (!last) refit(rough);
+    if (!last && refinement && !refinement->holds(study, f)) continue;
+    return refit(FitOptions().precision);
+  }
+}
+
+void settle_fitted(Base& base, const ModelDoubt& doubt) {
+  Account& a = base.account;
+  settle(*a.study, a.shared, a.fit, base.evidence.fitted, base.refinement.get(), doubt);
+  const Projection projection(a.fit, base.evidence.fitted.covariance);
+  a.chi_square = projection.chi_square(), a.dof = projection.dof();
+}
+
+/// The study that candidates' derivatives are taken of: unknown supports need theirs, too.
+std::shared_ptr<Study> study_of(const ModelDescription& d, const Observations& o) {
+  return std::make_shared<Study>(with_mobile_supports(d), o, fitted_conditions(o));
+}
+
+}  // namespace
+
+Base fitted_base(const ModelDescription& description, const Observations& observations,
+                 const DiscoverOptions& options) {
+  const auto fitted = fitted_conditions(observations);
+  const auto heldout = heldout_conditions(observations);
+  std::vector<size_t> all = fitted;
+  all.insert(all.end(), heldout.begin(), heldout.end());
+  // All in one go: inversions of unknown forces share their starts.
+  JointFit guess, guess_heldout;
+  {
+    Study study(description, observations, all);
+    guess = fit(study, {}, nullptr, {.precision = rough});
+    expect_all(study, guess);
+  }
+  const auto middle = guess.conditions.begin() + long(fitted.size());
+  guess_heldout.conditions.assign(middle, guess.conditions.end());
+  guess.conditions.erase(middle, guess.conditions.end());
+
+  Base base{{}, {observations, {}, {}}, nullptr};
+  Account& a = base.account;
+  a.description = description;
+  if (options.correct_mesh)
+    base.refinement = std::make_unique<Refinement>(description, observations);
+  a.study = study_of(description, observations);
+  a.fit = fit(*a.study, {}, nullptr, {.start = &guess.conditions, .precision = rough});
+  settle_fitted(base, options.doubt);
+  if (heldout.empty()) return base;
+  a.heldout_study = std::make_shared<Study>(description, observations, heldout);
+  a.heldout =
+      fit(*a.heldout_study, {}, nullptr, {.start = &guess_heldout.conditions, .precision = rough});
+  settle(*a.heldout_study, {}, a.heldout, base.evidence.heldout, base.refinement.get(),
+         options.doubt);
+  return base;
+}
+
+void move_base(Base& base, const Account& winner, const std::vector<Candidate>& effects,
+               const DiscoverOptions& options) {
+  if (base.refinement)
+    base.refinement = std::make_unique<Refinement>(
+        symmetric_part(with_fitted(winner.description, winner.fit), effects), *base.refinement);
+  Account& a = base.account;
+  Evidence& evidence = base.evidence;
+  a.description = winner.description, a.shared = winner.shared;
+  a.study = study_of(a.description, evidence.observations);
+  a.fit = fit(*a.study, a.shared, &evidence.fitted, {&winner.fit.conditions});
+  settle_fitted(base, options.doubt);
+  if (!a.heldout_study) return;
+  // The winner's own fit stays where the settled parameters have none.
+  a.heldout_study = winner.heldout_study, a.heldout = winner.heldout;
+  for (int times = 0; times < corrections; ++times) {
+    Account next = a;
+    fit_heldout(next, a.heldout.conditions, evidence);
+    if (next.heldout.conditions.size() != a.heldout.conditions.size()) break;
+    a.heldout_study = next.heldout_study, a.heldout = std::move(next.heldout);
+    if (times + 1 < corrections)
+      evidence.heldout =
+          errors_at(*a.heldout_study, a.heldout, base.refinement.get(), options.doubt);
+  }
+}
+
+double follow(Base& base, const Account& better, const Candidate& added) {
+  Account& a = base.account;
+  const double before = a.fit.log_evidence + a.heldout.log_evidence;
+  const auto try_from = [](Study& study, const SharedPrior& shared, const Errors& errors,
+                           const std::vector<FittedCondition>& start, double value,
+                           JointFit& best) {
+    FitOptions options{&start};
+    options.hopeless = value + hopeless;
+    JointFit f = fit(study, shared, &errors, options);
+    if (f.converged && f.log_evidence > best.log_evidence) best = std::move(f);
+  };
+  const Errors& errors = base.evidence.fitted;
+  try_from(*a.study, a.shared, errors, without(added, better.fit, errors), better.fit.value, a.fit);
+  if (a.heldout_study && better.heldout.converged)
+    try_from(*a.heldout_study, {}, base.evidence.heldout, better.heldout.conditions,
+             better.heldout.value, a.heldout);
+  return a.fit.log_evidence + a.heldout.log_evidence - before;
+}
+
+}  // namespace genio

@@ -1,0 +1,142 @@
+#include "discrepancy/contest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "discrepancy/influence.hpp"
+#include "discrepancy/response.hpp"
+#include "discrepancy/weighing.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double behind = 0.4;  // of the best gain, that a score must promise for a refit
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class Refits {
+ public:
+  Refits(Base& base, Contest& contest, const DiscoverOptions& options)
+      : base_(base),
+        contest_(contest),
+        options_(options),
+        all_(candidates(base.account.description, base.evidence.observations)),
+        prior_(log_prior(all_)) {}
+
+  /// Scores and prior odds of all candidates.
+  void score(const std::vector<Matrix>& influences, const Projection& projection) {
+    scores_ = genio::score(all_, *base_.account.study, base_.account.fit, influences, projection);
+    contest_.accounts.resize(scores_.size());
+    for (const Score& s : scores_)
+      contest_.round.candidates.push_back(
+          {all_[s.candidate], s, false, s.log_evidence + prior_[s.candidate], 0, ""});
+  }
+
+  void refit_best() {
+    for (size_t i : worth_a_refit(all_, scores_, prior_, options_.refits)) {
+      // What a straight line puts this far behind no refit brings to the front.
+      if (scores_[i].log_evidence < behind * gained_) continue;
+      refit_one(i);
+    }
+  }
+
+  void decide() {
+    Round& round = contest_.round;
+    contest_.best = weigh(round, refitted_);
+    if (refitted_.empty() || round.nothing >= options_.nothing) return;
+    const double gain =
+        follow(base_, contest_.accounts[contest_.best], round.candidates[contest_.best].candidate);
+    if (gain > 0) {
+      tell(fmt::format("  the model as it is does better from there: {:+.1f}", gain));
+      for (size_t i : refitted_) take_odds(i);
+      contest_.best = weigh(round, refitted_);
+    }
+    contest_.won = round.nothing < options_.nothing;
+  }
+
+ private:
+  void tell(const std::string& line) const {
+    if (options_.progress) options_.progress(line);
+  }
+
+  double heldout_gain(const Account& a) const {
+    return a.heldout.log_evidence - base_.account.heldout.log_evidence;
+  }
+
+  /// Log evidence over the base's, on all data.
+  void take_odds(size_t i) {
+    const Account& a = contest_.accounts[i];
+    Ranked& r = contest_.round.candidates[i];
+    r.heldout_gain = heldout_gain(a);
+    r.log_odds = a.fit.log_evidence - base_.account.fit.log_evidence + r.heldout_gain +
+                 prior_[scores_[i].candidate];
+  }
+
+  void refit_one(size_t i) {
+    Ranked& r = contest_.round.candidates[i];
+    Account& account = contest_.accounts[i];
+    tell(fmt::format("  refitting {}, log odds {:.1f} by its score", r.candidate.label(),
+                     r.log_odds));
+    account = refit(base_.account, r.candidate, scores_[i], base_.evidence,
+                    best_ ? best_->fit.value + hopeless : infinity);
+    r.message = account.message;
+    if (!account.fitted()) return tell(fmt::format("    given up: {}", r.message));
+    r.refitted = true;
+    const double gain = account.fit.log_evidence - base_.account.fit.log_evidence;
+    r.log_odds = gain + prior_[scores_[i].candidate];
+    if (gain < gained_ - hopeless) return;
+    if (!fit_heldout_of(i)) {
+      r.message = "does not reach the conditions held out: " + account.heldout.message;
+      return tell("    " + r.message);
+    }
+    if (gain > gained_ || !best_) gained_ = std::max(gain, gained_), best_ = &account;
+    refitted_.push_back(i);
+    take_odds(i);
+    tell(fmt::format("    log odds {:.1f} ({:+.1f} by conditions held out), chi2 {:.0f} of {:.0f}",
+                     r.log_odds, r.heldout_gain, account.chi_square, account.dof));
+  }
+
+  bool fit_heldout_of(size_t i) {
+    const Account& base = base_.account;
+    Account& account = contest_.accounts[i];
+    if (!base.heldout_study) return true;
+    if (heldout_influences_.empty())
+      heldout_influences_ = influences_of(*base.heldout_study, base.heldout);
+    fit_heldout(
+        account,
+        with(contest_.round.candidates[i].candidate, account.fit.shared, *base.heldout_study,
+             base.heldout, base_.evidence.heldout, heldout_influences_),
+        base_.evidence);
+    return account.heldout.conditions.size() == base.heldout.conditions.size();
+  }
+
+  Base& base_;
+  Contest& contest_;
+  const DiscoverOptions& options_;
+  std::vector<Candidate> all_;
+  std::vector<double> prior_;  // log odds of each before data
+  std::vector<Score> scores_;  // best first, as in the round
+  std::vector<size_t> refitted_;
+  double gained_ = 0;              // by the best refit, of log evidence
+  const Account* best_ = nullptr;  // of these
+  std::vector<Matrix> heldout_influences_;
+};
+
+}  // namespace
+
+Contest contest(Base& base, const std::vector<Matrix>& influences, const Projection& projection,
+                const DiscoverOptions& options) {
+  Contest c;
+  c.round.chi_square = base.account.chi_square, c.round.dof = base.account.dof;
+  Refits refits(base, c, options);
+  const auto started = std::chrono::steady_clock::now();
+  refits.score(influences, projection);
+  c.round.seconds_scoring =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  refits.refit_best();
+  refits.decide();
+  return c;
+}
+
+}  // namespace genio
