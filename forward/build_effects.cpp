@@ -87,11 +87,21 @@ TissueConstants constants(Settings& s) {
 }
 
 Made hyoid_mobility(Settings& s, const Anatomy& a) {
-  const auto nodes = nodes_with(a, Support::body);
-  if (nodes.empty())
+  auto nodes = nodes_with(a, Support::body);
+  const auto of_half = nodes_with(a, Support::sagittal);
+  if (nodes.empty() && of_half.empty())
     throw InputError(a.source + ": [effect.hyoid_mobility] needs nodes with support 2 (hyoid)");
-  return std::make_shared<HyoidMobility>(nodes, rest_positions(a.description.mesh),
-                                         s.take("compliance_z", 0), s.take("stiffness_xy", 0),
+  std::vector<double> shares(nodes.size(), 1.0);
+  double whole = double(nodes.size());
+  for (int n : of_half) {
+    const bool middle = std::abs(a.description.mesh.nodes[size_t(n)][1]) < 1e-6;
+    nodes.push_back(n), shares.push_back(middle ? 0.5 : 1.0);
+    whole += 2 * shares.back();
+  }
+  for (double& share : shares) share /= whole;
+  const double compliance = s.take("compliance_z", 0), stiffness = s.take("stiffness_xy", 0);
+  return std::make_shared<HyoidMobility>(std::move(nodes), std::move(shares),
+                                         rest_positions(a.description.mesh), compliance, stiffness,
                                          s.take("mass", 0.01));
 }
 
@@ -124,7 +134,8 @@ Made airway_pressure(Settings& s, const Anatomy& a) {
                             .cross(mesh.nodes[size_t(f[3])] - mesh.nodes[size_t(f[1])]);
     if (normal.dot(Vec3(0.5, 0, 1)) > 0) faces.push_back(f);
   }
-  return std::make_shared<AirwayPressure>(mesh, std::move(faces), s.take("pressure", 0));
+  return std::make_shared<AirwayPressure>(mesh, a.supports, std::move(faces),
+                                          s.take("pressure", 0));
 }
 
 Vec3 centroid(const HexMesh& mesh) {
@@ -251,7 +262,10 @@ std::vector<Support> supports_for(const ModelDescription& d) {
   std::vector<Support> supports = d.supports;
   for (Support& s : supports) {
     if (s == Support::fixed && d.effects.contains("jaw_opening")) s = Support::led;
-    if (s == Support::horizontal && d.effects.contains("hyoid_mobility")) s = Support::body;
+    if (d.effects.contains("hyoid_mobility")) {
+      if (s == Support::horizontal) s = Support::body;
+      if (s == Support::forward) s = Support::sagittal;
+    }
   }
   return supports;
 }

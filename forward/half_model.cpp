@@ -61,7 +61,7 @@ ModelDescription half_of(const ModelDescription& whole, const std::string& sourc
     Support s = whole.supports[a];
     if (s == Support::horizontal) s = Support::forward;
     if (s == Support::free && std::abs(whole.mesh.nodes[a][1]) < on_plane)
-      s = held_along(false, true, false);
+      s = in_midplane;
     d.supports.push_back(s);
   }
   d.muscles.clear();

@@ -87,7 +87,8 @@ std::vector<Place> muscle_courses(const ModelDescription& d) {
     jaw[1] = 0;
     result.push_back(course("GGH", jaw, root));
   }
-  if (middle_of(d, {Support::horizontal, Support::body, Support::forward}, hyoid)) {
+  if (middle_of(d, {Support::horizontal, Support::body, Support::forward, Support::sagittal},
+                hyoid)) {
     const double w = 0.5 * half_width(d, dorsum);
     for (double s : {-1.0, 1.0}) {
       const Vec3 out = s * w * Vec3::UnitY();

@@ -9,13 +9,16 @@ DofMap::DofMap(const std::vector<Support>& supports) : index_(3 * supports.size(
       if (supports[a] == Support::free || supports[a] == Support::led || partly)
         index_[3 * a + i] = unknowns_++;
     }
-  for (const auto& [kind, axes] :
-       {std::pair{Support::horizontal, 2}, {Support::body, 3}, {Support::forward, 1}}) {
+  const std::pair<Support, std::vector<int>> bodies[] = {{Support::horizontal, {0, 1}},
+                                                         {Support::body, {0, 1, 2}},
+                                                         {Support::forward, {0}},
+                                                         {Support::sagittal, {0, 2}}};
+  for (const auto& [kind, axes] : bodies) {
     int body = -1;
     for (size_t a = 0; a < supports.size(); ++a) {
       if (supports[a] != kind) continue;
-      if (body < 0) body = unknowns_, unknowns_ += axes;
-      for (int i = 0; i < axes; ++i) index_[3 * a + i] = body + i;
+      if (body < 0) body = unknowns_, unknowns_ += int(axes.size());
+      for (size_t i = 0; i < axes.size(); ++i) index_[3 * a + size_t(axes[i])] = body + int(i);
     }
   }
 }

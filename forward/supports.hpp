@@ -14,13 +14,17 @@ enum class Support : int {
   led = 3,         ///< an unknown that an effect leads along a path: the jaw insertions, opening
   body = 4,        ///< one rigid body free to translate: the hyoid on springs
   forward = 5,     ///< one rigid body free along x: the hyoid of half a tongue
+  sagittal = 6,    ///< one rigid body free along x and z: the same on springs
   held = 8,        ///< from here on: held along x (+ 1), y (+ 2), z (+ 4), free along the others
 };
 
-/// A node held along some axes: held_along(false, true, false) stays in the midsagittal plane.
+/// A node held along some axes.
 constexpr Support held_along(bool x, bool y, bool z) {
   return Support(int(Support::held) + x + 2 * y + 4 * z);
 }
+
+/// A node of the plane that half a tongue ends at.
+constexpr Support in_midplane = held_along(false, true, false);
 
 /// Maps the 3 n nodal displacements to the unknowns of the problem.
 class DofMap {

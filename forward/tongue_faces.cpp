@@ -5,11 +5,6 @@
 #include "forward/build_effects.hpp"
 
 namespace genio {
-namespace {
-
-constexpr Support in_midplane = held_along(false, true, false);
-
-}  // namespace
 
 bool moves_freely(Support s) { return s == Support::free || s == in_midplane; }
 

@@ -22,7 +22,8 @@ struct At {
 
 }  // namespace
 
-AirwayPressure::AirwayPressure(const HexMesh& mesh, std::vector<Quad> faces, double pressure)
+AirwayPressure::AirwayPressure(const HexMesh& mesh, const std::vector<Support>& supports,
+                               std::vector<Quad> faces, double pressure)
     : faces_(std::move(faces)),
       centre_(Vec3::Zero()),
       normal_(Vec3::Zero()),
@@ -30,9 +31,15 @@ AirwayPressure::AirwayPressure(const HexMesh& mesh, std::vector<Quad> faces, dou
   std::map<std::pair<int, int>, int> edges;  // met once: the rim
   for (const Quad& face : faces_)
     for (int a = 0; a < 4; ++a) ++edges[std::minmax(face[a], face[(a + 1) % 4])];
+  const auto cut = [&](int a) { return supports[size_t(a)] == in_midplane; };
+  bool half = false;
   double length = 0;
   for (const auto& [edge, count] : edges) {
     if (count != 1) continue;
+    if (cut(edge.first) && cut(edge.second)) {
+      half = true;
+      continue;
+    }
     const Vec3 &u = mesh.nodes[size_t(edge.first)], &v = mesh.nodes[size_t(edge.second)];
     centre_ += (v - u).norm() * 0.5 * (u + v);
     length += (v - u).norm();
@@ -43,6 +50,7 @@ AirwayPressure::AirwayPressure(const HexMesh& mesh, std::vector<Quad> faces, dou
       const At at(face, q, [&](int a) { return mesh.nodes[size_t(a)]; });
       normal_ += at.g1.cross(at.g2);
     }
+  if (half) centre_[1] = normal_[1] = 0;
   normal_.normalize();
 }
 

@@ -3,6 +3,7 @@
 
 #include "forward/effects/effect.hpp"
 #include "forward/mesh.hpp"
+#include "forward/supports.hpp"
 
 namespace genio {
 
@@ -11,11 +12,13 @@ namespace genio {
 /// E = pressure * integral over the faces of (x - c).d (n.d) da, with c the centroid and d the
 /// normal of the faces' rim at rest: the volume between the faces and the plane of their rim.
 /// Inside the patch that is pressure along the present normal; on a rim out of that plane it adds
-/// the pressure on the curtain from rim to plane, which keeps the load conservative. Parameter:
-/// pressure [Pa], above that outside.
+/// the pressure on the curtain from rim to plane, which keeps the load conservative. Half a tongue
+/// has the plane of the whole; where it was cut is no rim. Parameter: pressure [Pa], above that
+/// outside.
 class AirwayPressure final : public Effect {
  public:
-  AirwayPressure(const HexMesh& mesh, std::vector<Quad> faces, double pressure);
+  AirwayPressure(const HexMesh& mesh, const std::vector<Support>& supports, std::vector<Quad> faces,
+                 double pressure);
 
   std::string_view name() const override { return "airway_pressure"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }

@@ -35,6 +35,49 @@ TEST(HalfModel, TakesTheShapeOfTheWhole) {
   }
 }
 
+TEST(HalfModel, TakesTheShapeOfTheWholeUnderEveryEffectThatIsAlikeOnBothSides) {
+  const ModelDescription plain = read_description(test::generic_model());
+  const Vec3 root = plain.mesh.nodes[size_t(plain.landmarks.root)];
+  const std::map<std::string, EffectTable> effects = {
+      {"gravity", {{"z", -9.81}}},
+      {"active_stiffening", {{"factor", 20}}},
+      {"fibre_anisotropy", {{"modulus", 4e3}}},
+      {"material_nonlinearity", {{"a20", 3e3}}},
+      {"compressibility", {{"compliance", 3e-5}}},
+      {"mucosa_layer", {{"a10", 8e3}}},
+      {"stiff_region",
+       {{"factor", 5}, {"x", root[0] + 0.02}, {"y", 0}, {"z", root[2]}, {"radius", 0.016}}},
+      {"weak_muscle", {{"GGP_L", 0.5}, {"GGP_R", 0.5}}},
+      {"extra_muscle",
+       {{"from_x", root[0] + 0.04},
+        {"from_z", root[2] - 0.01},
+        {"to_x", root[0]},
+        {"to_z", root[2]},
+        {"force", 0.5}}},
+      {"force_length", {{"strength", 0.5}}},
+      {"jaw_opening", {{"angle", 3}}},
+      {"hyoid_mobility", {{"compliance_z", 3e-3}, {"stiffness_xy", 200}}},
+      {"airway_pressure", {{"pressure", 200}}}};
+  for (const auto& [name, table] : effects) {
+    ModelDescription d = plain;
+    d.effects[name] = table;
+    const Model m = build_model(d, name), half = build_model(half_of(d, name), name + ", half");
+    Parameters p = default_parameters(m), q = default_parameters(half);
+    set_command(m, "GGP", 2, p), set_command(half, "GGP", 1, q);
+    Workspace ws(m), half_ws(half);
+    const auto both = solve_equilibrium(m, p, m.rest, ws),
+               one = solve_equilibrium(half, q, half.rest, half_ws);
+    ASSERT_TRUE(both && one) << name;
+    for (size_t i = 0; i < m.midsagittal.size(); ++i)
+      EXPECT_LT(
+          (node_position(both.x, m.midsagittal[i]) - node_position(one.x, half.midsagittal[i]))
+              .norm(),
+          3e-5)
+          << name;
+    EXPECT_TRUE(mirror_of(m)) << name;
+  }
+}
+
 TEST(Mirror, UnfoldsTheHalfIntoTheWhole) {
   const Model m = read_model(test::generic_model());
   const auto mirror = mirror_of(m, {"elasticity.a10"});
