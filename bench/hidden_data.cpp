@@ -62,16 +62,35 @@ ModelDescription turned(const ModelDescription& tongue, unsigned seed) {
   throw std::runtime_error("no draw of turned fibres leaves the mesh valid");
 }
 
-/// The shape of the fine tongue, from the coarse one's.
-Equilibrium fine_shape(const Model& fine, const Model& coarse, const Forces_N& forces, bool half,
-                       Workspace& ws_coarse, Workspace& ws) {
-  const Equilibrium rough =
-      solve_equilibrium(coarse, commanded(coarse, forces, half), coarse.rest, ws_coarse);
-  if (!rough) return rough;
-  const Positions start = prolonged(coarse.mesh, coarse.description->supports, rough.x);
+/// Shapes of the fine tongue, each from the one before whose coarse shape is nearest: a coarse
+/// shape itself has wrong volumes between the nodes of the fine mesh. Fewer than forces where one
+/// has none, then `failure` says why.
+std::vector<Positions> fine_shapes(const Model& fine, const Model& coarse,
+                                   const std::vector<Forces_N>& all, bool half,
+                                   std::string& failure) {
+  Workspace ws_coarse(coarse), ws(fine);
   SolveOptions options;
   options.tolerance = 1e-7;
-  return solve_equilibrium(fine, commanded(fine, forces, half), start, ws, options);
+  std::vector<Positions> from{coarse.rest}, shapes{fine.rest};
+  for (const Forces_N& forces : all) {
+    const Equilibrium rough =
+        solve_equilibrium(coarse, commanded(coarse, forces, half), coarse.rest, ws_coarse, options);
+    const auto distance = [&](const Positions& x) { return (x - rough.x).cwiseAbs().maxCoeff(); };
+    const auto nearest =
+        std::min_element(from.begin(), from.end(),
+                         [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    const Equilibrium e =
+        rough ? solve_equilibrium(fine, commanded(fine, forces, half),
+                                  shapes[size_t(nearest - from.begin())], ws, options)
+              : rough;
+    if (!e) {
+      failure = e.message;
+      break;
+    }
+    from.push_back(rough.x), shapes.push_back(e.x);
+  }
+  shapes.erase(shapes.begin());
+  return shapes;
 }
 
 void write_target(const std::string& path, const std::vector<Measured>& points) {
@@ -114,7 +133,6 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
   if (half) coarse = half_of(coarse, "truth");
   Model rough = build_model(coarse, "truth"), fine = build_model(refined(coarse), "fine truth");
   changes.by_hand(rough), changes.by_hand(fine);
-  Workspace ws_rough(rough), ws(fine);
   fs::create_directories(folder);
   std::mt19937 noise(what.noise_seed * 7919 + what.seed);
   std::normal_distribution<double> normal;
@@ -123,10 +141,10 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
   if (what.forces_known) toml += fmt::format("force_sd_percent = {}\n", 100 * force_error);
   std::vector<Positions> shapes;
   if (what.effects.empty()) shapes = known[what.seed];
-  for (size_t k = shapes.size(); k < all.size(); ++k) {
-    const Equilibrium e = fine_shape(fine, rough, all[k], half, ws_rough, ws);
-    if (!e) return failed("truth: " + e.message);
-    shapes.push_back(e.x);
+  if (shapes.empty()) {
+    std::string failure;
+    shapes = fine_shapes(fine, rough, all, half, failure);
+    if (shapes.size() < all.size()) return failed("truth: " + failure);
   }
   if (what.effects.empty()) known[what.seed] = shapes;
   for (size_t k = 0; k < all.size(); ++k) {

@@ -2,12 +2,15 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "forward/hex8.hpp"
 
 namespace genio {
 namespace {
+
+constexpr double on_plane = 1e-6;  // [m]
 
 /// Contour that each residual's point was traced with: -1 a point by itself.
 std::vector<int> contours(const Target& t) {
@@ -91,17 +94,53 @@ Matrix fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis) {
   const double slope = doubt.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
   const double variance = std::pow(slope * doubt.fibre_length, 2);
   const double scale = 0.5 / (doubt.fibre_length * doubt.fibre_length);
+  const auto right_of = [](const Vec3& x) { return Vec3(x[0], std::abs(x[1]), x[2]); };
+  const auto side = [](const Vec3& x) {
+    return std::abs(x[1]) < on_plane ? 0.0 : std::copysign(1.0, x[1]);
+  };
   const auto n = Eigen::Index(model.mesh.nodes.size());
   Matrix c(n, n);
   for (Eigen::Index a = 0; a < n; ++a)
     for (Eigen::Index b = 0; b <= a; ++b) {
       const Vec3 &x = model.mesh.nodes[size_t(a)], &y = model.mesh.nodes[size_t(b)];
-      const Vec3 image(y[0], -y[1], y[2]);
-      const double same = std::exp(-scale * (x - y).squaredNorm());
-      const double across = std::exp(-scale * (x - image).squaredNorm());
-      c(a, b) = c(b, a) = 0.5 * variance * (same + (axis == 1 ? -across : across));
+      const double own = std::exp(-scale * (x - y).squaredNorm());
+      const double alike = (axis == 1 ? side(x) * side(y) : 1) *
+                           std::exp(-scale * (right_of(x) - right_of(y)).squaredNorm());
+      c(a, b) = c(b, a) = variance * (doubt.fibres_alike * alike + (1 - doubt.fibres_alike) * own);
     }
   return c;
+}
+
+Matrix efficacy_covariance(const Study& study, const JointFit& fit,
+                           const std::vector<Matrix>& influences, const ModelDoubt& doubt) {
+  Eigen::Index rows = 0, first = 0;
+  for (const Matrix& a : influences) rows += a.rows();
+  std::map<std::string, Vector> each, both;  // residuals of all conditions by a muscle's scale
+  for (size_t k = 0; k < influences.size(); first += influences[k++].rows()) {
+    const FittedCondition& c = fit.conditions[k];
+    const Model& model = study.model(k);
+    std::vector<int> pulling;
+    for (const Muscle& m : model.muscles)
+      if (const int p = parameter_index(model, "muscles." + m.name); c.parameters[p] > 0)
+        pulling.push_back(p);
+    const Matrix by_force = influences[k] * force_derivatives(model, c.x, c.parameters, pulling);
+    for (size_t i = 0; i < pulling.size(); ++i) {
+      const std::string& name = model.parameters[size_t(pulling[i])].name;
+      const Vector by_scale = c.parameters[pulling[i]] * by_force.col(Eigen::Index(i));
+      for (auto* sums : {&each, &both}) {
+        auto& sum = (*sums)[sums == &both ? bilateral_name(name) : name];
+        if (sum.size() == 0) sum = Vector::Zero(rows);
+        sum.segment(first, by_scale.size()) += by_scale;
+      }
+    }
+  }
+  Matrix covariance = Matrix::Zero(rows, rows);
+  const double variance = doubt.efficacy_sd * doubt.efficacy_sd;
+  for (const auto& [name, r] : both)
+    covariance += doubt.fibres_alike * variance * r * r.transpose();
+  for (const auto& [name, r] : each)
+    covariance += (1 - doubt.fibres_alike) * variance * r * r.transpose();
+  return covariance;
 }
 
 Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<Matrix>& influences,
@@ -142,6 +181,7 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
     const Matrix part = turned(Eigen::all, Eigen::seqN(axis, turned.cols() / 3, 3));
     covariance += part * fibre_covariance(study.model(0), doubt, axis) * part.transpose();
   }
+  covariance += efficacy_covariance(study, fit, influences, doubt);
   covariance += std::pow(doubt.tissue_sd, 2) * tissue * tissue.transpose();
   covariance += std::pow(doubt.correction_sd, 2) * mesh * mesh.transpose();
   return covariance;

@@ -9,6 +9,8 @@ namespace genio {
 struct ModelDoubt {
   double fibre_turn = 5;           ///< mean angle between true and modelled fibres [deg]
   double fibre_length = 8e-3;      ///< over which that angle stays alike [m]
+  double fibres_alike = 0.75;      ///< part of a variance that is alike left and right
+  double efficacy_sd = 0.1;        ///< of what a newton of a muscle does: its course as a whole
   double tissue_sd = 0.03;         ///< of the logarithm of the tissue's stiffness
   double correction_sd = 0.25;     ///< of the mesh's own error, as a part of its correction
   double least_mesh_error = 3e-5;  ///< [m]
@@ -30,9 +32,14 @@ Matrix noise_covariance(const Target& target, const Residuals& residuals, double
 Matrix fibre_influence(const Model& model, const FittedCondition& condition,
                        const Matrix& influence);
 
-/// Covariance of the fibres' displacements along x, y or z (n x n [m^2]): a Gaussian field, half of
-/// it alike left and right.
+/// Covariance of the fibres' displacements along x, y or z (n x n [m^2]): two Gaussian fields, one
+/// alike left and right and one of each side's own.
 Matrix fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis);
+
+/// Covariance of all residuals, one condition's after another's, from muscles that do more or less
+/// for their force than the model has it, in all conditions alike.
+Matrix efficacy_covariance(const Study& study, const JointFit& fit,
+                           const std::vector<Matrix>& influences, const ModelDoubt& doubt);
 
 /// The covariance of all residuals of a fit, one condition's after another's. `influences`: of each
 /// condition, see influence().

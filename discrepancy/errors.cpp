@@ -3,11 +3,28 @@
 #include "discrepancy/influence.hpp"
 
 namespace genio {
+namespace {
+
+/// What smooth distances are off by: from a curved surface they are longer.
+Corrections smoothing(const Study& study, const JointFit& fit) {
+  Corrections result;
+  for (size_t k = 0; k < study.size(); ++k) {
+    const FittedCondition& c = fit.conditions[k];
+    const HeadPose pose = head_pose(c.commands, c.z);
+    const auto values = [&](double smooth) {
+      return Comparison(study.model(k), study.condition(k).target, smooth)(c.x, pose).values;
+    };
+    result.push_back(values(0) - values(surface_smoothing));
+  }
+  return result;
+}
+
+}  // namespace
 
 Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
                  const ModelDoubt& doubt) {
   Errors e;
-  if (refinement) e.corrections = refinement->corrections(study, fit);
+  e.corrections = refinement ? refinement->corrections(study, fit) : smoothing(study, fit);
   e.matrix = residual_covariance(study, fit, influences_of(study, fit), e.corrections, doubt);
   e.covariance.compute(e.matrix);
   return e;

@@ -6,7 +6,8 @@
 
 namespace genio {
 
-/// Errors at a fit; the mesh's own are found anew (null: none).
+/// Errors at a fit; the mesh's own are found anew (null: none but what smooth distances are off
+/// by).
 Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
                  const ModelDoubt& doubt);
 

@@ -133,10 +133,9 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c, siz
   }
   const HeadPose pose = head_pose(c.commands, c.z);
   const Target& target = seen.target;
-  const auto values = [&](const Model& m, const Positions& at) {
-    return Comparison(m, target, surface_smoothing)(at, pose).values;
-  };
-  return known.correction = values(t.whole, x) - values(t.coarse, rough.x);
+  // Smooth distances from a curved surface are longer than they are; that goes with the rest.
+  return known.correction = Comparison(t.whole, target)(x, pose).values -
+                            Comparison(t.coarse, target, surface_smoothing)(rough.x, pose).values;
 }
 
 Corrections Refinement::corrections(const Study& study, const JointFit& fit) {

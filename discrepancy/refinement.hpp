@@ -14,10 +14,10 @@ class Refinement {
   /// The same conditions with another description; known fine shapes serve as starts.
   Refinement(ModelDescription description, const Refinement& before);
   /// For every condition: the residuals of the same problem on a mesh with every element split in
-  /// eight, less those of this mesh, in units of the noise; on half a tongue, with the mean forces
-  /// of both sides, where the tongue is symmetric. Parameters of the study's models that this
-  /// description has not are left out. Zero where the finer problem has no solution. What is known
-  /// from a shape nearby is not computed again.
+  /// eight, less those of this mesh by smooth distances, in units of the noise; on half a tongue,
+  /// with the mean forces of both sides, where the tongue is symmetric. Parameters of the study's
+  /// models that this description has not are left out. Zero where the finer problem has no
+  /// solution. What is known from a shape nearby is not computed again.
   Corrections corrections(const Study& study, const JointFit& fit);
   /// True where all of these corrections are known from shapes nearby.
   bool holds(const Study& study, const JointFit& fit) const;

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 
+#include "inverse/box_gaussian.hpp"
+
 namespace genio {
-namespace {
-
-constexpr double at_bound = 2e-4;  // an unknown this near a bound sits at it
-
-}  // namespace
 
 std::vector<FittedCondition> response(const JointFit& f, const Errors& errors,
                                       const Vector& change) {

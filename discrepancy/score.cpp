@@ -8,12 +8,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "inverse/box_gaussian.hpp"
 #include "inverse/posterior.hpp"
 
 namespace genio {
 namespace {
 
-constexpr double on_bound = 2e-4;     // an unknown this near a bound sits at it
 constexpr double invisible = 1e-3;    // whitened change at typical strength
 constexpr double nine_in_ten = 1.28;  // standard deviations
 
@@ -93,8 +93,8 @@ Projection::Projection(const JointFit& f, const Eigen::LLT<Matrix>& covariance)
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < f.u.size(); ++i) {
     if (f.lower[i] == f.upper[i]) continue;
-    if (f.u[i] < f.lower[i] + on_bound && slope[i] > 0) continue;
-    if (f.u[i] > f.upper[i] - on_bound && slope[i] < 0) continue;
+    if (f.u[i] < f.lower[i] + at_bound && slope[i] > 0) continue;
+    if (f.u[i] > f.upper[i] - at_bound && slope[i] < 0) continue;
     free.push_back(i);
   }
   const Matrix tangent = all(Eigen::all, free);

@@ -11,9 +11,8 @@
 namespace genio {
 namespace {
 
-constexpr double bound_margin = 2e-4;  // an unknown this near a bound sits at it
-constexpr int warming = 100;           // samples left out
-constexpr double inside = 1e-9;        // of the box: where the first trajectory starts off a bound
+constexpr int warming = 100;     // samples left out
+constexpr double inside = 1e-9;  // of the box: where the first trajectory starts off a bound
 constexpr int most_bounces = 2000;
 constexpr double pressing = 30;  // slope at a bound, in units of the Gaussian's own
 
@@ -96,8 +95,8 @@ BoxGaussian about(const Vector& centre, const Matrix& hessian, const Vector& low
 }
 
 int pressed(const BoxGaussian& g, Eigen::Index i) {
-  if (g.slope[i] > 0 && g.mode[i] < g.lower[i] + bound_margin) return -1;
-  if (g.slope[i] < 0 && g.mode[i] > g.upper[i] - bound_margin) return 1;
+  if (g.slope[i] > 0 && g.mode[i] < g.lower[i] + at_bound) return -1;
+  if (g.slope[i] < 0 && g.mode[i] > g.upper[i] - at_bound) return 1;
   return 0;
 }
 

@@ -5,6 +5,9 @@
 
 namespace genio {
 
+/// An unknown this near a bound sits at it.
+constexpr double at_bound = 2e-4;
+
 /// Density proportional to exp(-slope.d - d.H d / 2), d = z - mode, on lower <= z <= upper, H
 /// positive definite.
 struct BoxGaussian {
