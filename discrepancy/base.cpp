@@ -49,6 +49,13 @@ std::shared_ptr<Study> study_of(const ModelDescription& d, const Observations& o
   return std::make_shared<Study>(with_mobile_supports(d), o, fitted_conditions(o));
 }
 
+std::shared_ptr<Refinement> refinement_under(const Account& a,
+                                             const std::vector<Candidate>& effects,
+                                             const Base& base) {
+  return std::make_shared<Refinement>(symmetric_part(with_fitted(a.description, a.fit), effects),
+                                      *base.refinement);
+}
+
 }  // namespace
 
 Base fitted_base(const ModelDescription& description, const Observations& observations,
@@ -72,7 +79,7 @@ Base fitted_base(const ModelDescription& description, const Observations& observ
   Account& a = base.account;
   a.description = description;
   if (options.correct_mesh)
-    base.refinement = std::make_unique<Refinement>(description, observations);
+    base.refinement = std::make_shared<Refinement>(description, observations);
   a.study = study_of(description, observations);
   a.fit = fit(*a.study, {}, nullptr, {.start = &guess.conditions, .precision = rough});
   settle_fitted(base, options.doubt);
@@ -88,8 +95,8 @@ Base fitted_base(const ModelDescription& description, const Observations& observ
 void move_base(Base& base, const Account& winner, const std::vector<Candidate>& effects,
                const DiscoverOptions& options) {
   if (base.refinement)
-    base.refinement = std::make_unique<Refinement>(
-        symmetric_part(with_fitted(winner.description, winner.fit), effects), *base.refinement);
+    base.refinement =
+        winner.refinement ? winner.refinement : refinement_under(winner, effects, base);
   Account& a = base.account;
   Evidence& evidence = base.evidence;
   a.description = winner.description, a.shared = winner.shared;
@@ -108,6 +115,25 @@ void move_base(Base& base, const Account& winner, const std::vector<Candidate>& 
       evidence.heldout =
           errors_at(*a.heldout_study, a.heldout, base.refinement.get(), options.doubt);
   }
+}
+
+void settle_account(const Base& base, Account& account, const std::vector<Candidate>& effects,
+                    const DiscoverOptions& options) {
+  if (!base.refinement || !options.correct_mesh) return;
+  Account a = account;
+  Evidence evidence = base.evidence;
+  a.refinement = refinement_under(a, effects, base);
+  evidence.fitted.corrections = a.refinement->corrections(*a.study, a.fit);
+  a.fit = fit(*a.study, a.shared, &evidence.fitted, {&account.fit.conditions});
+  if (!a.fit.converged) return;
+  const Projection projection(a.fit, evidence.fitted.covariance);
+  a.chi_square = projection.chi_square(), a.dof = projection.dof();
+  if (a.heldout_study) {
+    evidence.heldout.corrections = a.refinement->corrections(*a.heldout_study, a.heldout);
+    fit_heldout(a, account.heldout.conditions, evidence);
+    if (a.heldout.conditions.size() != account.heldout.conditions.size()) return;
+  }
+  account = std::move(a);
 }
 
 double follow(Base& base, const Account& better, const Candidate& added) {

@@ -2,7 +2,6 @@
 // The account that candidates are measured against: the model as it is so far.
 
 #include "discrepancy/discover.hpp"
-#include "discrepancy/refinement.hpp"
 #include "discrepancy/selection.hpp"
 
 namespace genio {
@@ -11,7 +10,7 @@ namespace genio {
 struct Base {
   Account account;
   Evidence evidence;
-  std::unique_ptr<Refinement> refinement;  ///< null: the mesh is taken to be exact
+  std::shared_ptr<Refinement> refinement;  ///< null: the mesh is taken to be exact
 };
 
 /// The model as given, fitted to all conditions. Throws InputError where it does not reach them.
@@ -22,6 +21,12 @@ Base fitted_base(const ModelDescription& description, const Observations& observ
 /// `effects`: all that were added so far. Throws InputError where it does not reach the conditions.
 void move_base(Base& base, const Account& winner, const std::vector<Candidate>& effects,
                const DiscoverOptions& options);
+
+/// Fits an account once more with the mesh's error under it, which it had not when it was refitted:
+/// of an effect of the tissue the mesh misses a part, of a head pose none. Stays as it is where
+/// that does not succeed.
+void settle_account(const Base& base, Account& account, const std::vector<Candidate>& effects,
+                    const DiscoverOptions& options);
 
 /// Lets the base start where a better account ends once what it adds goes away: it may have found a
 /// valley of the forces that has nothing to do with that. Returns the log evidence gained by it.

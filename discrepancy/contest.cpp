@@ -13,6 +13,7 @@ namespace genio {
 namespace {
 
 constexpr double behind = 0.4;  // of the best gain, that a score must promise for a refit
+constexpr double close = 8;     // log odds, of accounts that the mesh's error may reorder
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Refits {
@@ -41,10 +42,11 @@ class Refits {
     }
   }
 
-  void decide() {
+  void decide(const std::vector<Candidate>& found) {
     Round& round = contest_.round;
     contest_.best = weigh(round, refitted_);
     if (refitted_.empty() || round.nothing >= options_.nothing) return;
+    part_close_ones(found);
     const double gain =
         follow(base_, contest_.accounts[contest_.best], round.candidates[contest_.best].candidate);
     if (gain > 0) {
@@ -56,6 +58,28 @@ class Refits {
   }
 
  private:
+  /// Where different effects come close, the mesh's error under each of them decides.
+  void part_close_ones(const std::vector<Candidate>& found) {
+    const auto& all = contest_.round.candidates;
+    std::vector<size_t> near;
+    bool different = false;
+    for (size_t i : refitted_) {
+      if (all[i].log_odds < all[contest_.best].log_odds - close) continue;
+      near.push_back(i);
+      different |= all[i].candidate.effect != all[contest_.best].candidate.effect;
+    }
+    if (!different) return;
+    for (size_t i : near) {
+      std::vector<Candidate> effects = found;
+      effects.push_back(all[i].candidate);
+      settle_account(base_, contest_.accounts[i], effects, options_);
+      take_odds(i);
+      tell(fmt::format("  {} with the mesh's error under it: log odds {:.1f}",
+                       all[i].candidate.label(), all[i].log_odds));
+    }
+    contest_.best = weigh(contest_.round, refitted_);
+  }
+
   void tell(const std::string& line) const {
     if (options_.progress) options_.progress(line);
   }
@@ -126,7 +150,7 @@ class Refits {
 }  // namespace
 
 Contest contest(Base& base, const std::vector<Matrix>& influences, const Projection& projection,
-                const DiscoverOptions& options) {
+                const std::vector<Candidate>& found, const DiscoverOptions& options) {
   Contest c;
   c.round.chi_square = base.account.chi_square, c.round.dof = base.account.dof;
   Refits refits(base, c, options);
@@ -135,7 +159,7 @@ Contest contest(Base& base, const std::vector<Matrix>& influences, const Project
   c.round.seconds_scoring =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   refits.refit_best();
-  refits.decide();
+  refits.decide(found);
   return c;
 }
 

@@ -13,9 +13,9 @@ struct Contest {
   bool won = false;               ///< it is to be added
 };
 
-/// `influences` and `projection`: of the base's fitted conditions. The base may move to a better
-/// valley of the forces that a candidate's refit found.
+/// `influences` and `projection`: of the base's fitted conditions; `found`: effects added before.
+/// The base may move to a better valley of the forces that a candidate's refit found.
 Contest contest(Base& base, const std::vector<Matrix>& influences, const Projection& projection,
-                const DiscoverOptions& options);
+                const std::vector<Candidate>& found, const DiscoverOptions& options);
 
 }  // namespace genio

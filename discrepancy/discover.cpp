@@ -71,7 +71,7 @@ class Search {
       d_.map_before = d_.map_after = map();
       d_.hidden = hidden_force(*account().study, influences, projection);
     }
-    Contest c = contest(base_, influences, projection, options_);
+    Contest c = contest(base_, influences, projection, effects_, options_);
     c.round.seconds_scoring += seconds;
     if (c.won) accept(c);
     d_.rounds.push_back(std::move(c.round));

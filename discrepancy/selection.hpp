@@ -1,6 +1,7 @@
 #pragma once
 // Candidates refitted in full and weighed against each other and against nothing.
 
+#include "discrepancy/refinement.hpp"
 #include "discrepancy/score.hpp"
 #include "discrepancy/separation.hpp"
 
@@ -16,8 +17,9 @@ struct Account {
   JointFit fit;
   double chi_square = 0, dof = 0;  ///< of the residuals
   std::shared_ptr<Study> heldout_study;
-  JointFit heldout;     ///< conditions held out, its parameters as fitted
-  std::string message;  ///< why it could not be fitted
+  JointFit heldout;                        ///< conditions held out, its parameters as fitted
+  std::shared_ptr<Refinement> refinement;  ///< under it; null: under the model as it was
+  std::string message;                     ///< why it could not be fitted
 
   bool fitted() const { return fit.converged; }
 };
