@@ -143,7 +143,7 @@ double follow(Base& base, const Account& better, const Candidate& added) {
                            const std::vector<FittedCondition>& start, double value,
                            JointFit& best) {
     FitOptions options{&start};
-    options.hopeless = value + hopeless;
+    options.hopeless = value + far_behind;
     JointFit f = fit(study, shared, &errors, options);
     if (f.converged && f.log_evidence > best.log_evidence) best = std::move(f);
   };

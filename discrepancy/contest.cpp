@@ -103,13 +103,13 @@ class Refits {
     tell(fmt::format("  refitting {}, log odds {:.1f} by its score", r.candidate.label(),
                      r.log_odds));
     account = refit(base_.account, r.candidate, scores_[i], base_.evidence,
-                    best_ ? best_->fit.value + hopeless : infinity);
+                    best_ ? best_->fit.value + far_behind : infinity);
     r.message = account.message;
     if (!account.fitted()) return tell(fmt::format("    given up: {}", r.message));
     r.refitted = true;
     const double gain = account.fit.log_evidence - base_.account.fit.log_evidence;
     r.log_odds = gain + prior_[scores_[i].candidate];
-    if (gain < gained_ - hopeless) return;
+    if (gain < gained_ - far_behind) return;
     if (!fit_heldout_of(i)) {
       r.message = "does not reach the conditions held out: " + account.heldout.message;
       return tell("    " + r.message);

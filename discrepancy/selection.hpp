@@ -7,7 +7,7 @@
 
 namespace genio {
 
-constexpr double hopeless = 30;  ///< units of log posterior behind the best
+constexpr double far_behind = 30;  ///< units of log posterior behind the best
 
 /// A fit under one account of the data: the model as it is, or with one candidate more.
 struct Account {
