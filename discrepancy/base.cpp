@@ -1,7 +1,6 @@
 #include "discrepancy/base.hpp"
 
 #include "discrepancy/errors.hpp"
-#include "discrepancy/influence.hpp"
 #include "discrepancy/response.hpp"
 #include "discrepancy/symmetric_part.hpp"
 
@@ -9,7 +8,6 @@ namespace genio {
 namespace {
 
 constexpr double rough = 1;  // precision of a first fit, of the log posterior
-constexpr int corrections = 2;
 
 void expect_all(const Study& study, const JointFit& f) {
   if (f.conditions.size() != study.size())
@@ -20,28 +18,22 @@ void expect_all(const Study& study, const JointFit& f) {
 /// is corrected, and its error with them.
 void settle(Study& study, const SharedPrior& shared, JointFit& f, Errors& errors,
             Refinement* refinement, const ModelDoubt& doubt) {
-  for (int times = 0; times < corrections; ++times) {
-    expect_all(study, f);
-    errors = errors_at(study, f, refinement, doubt);
-    const bool last = times + 1 == corrections;
-    const auto refit = [&](double precision) {
-      FitOptions options{&f.conditions};
-      options.precision = precision;
-      JointFit next = fit(study, shared, &errors, options);
-      expect_all(study, next);
-      f = std::move(next);
-    };
-    if (!last) refit(rough);
-    if (!last && refinement && !refinement->holds(study, f)) continue;
-    return refit(FitOptions().precision);
-  }
+  const auto refit = [&](double precision) {
+    JointFit next = fit(study, shared, &errors, {.start = &f.conditions, .precision = precision});
+    expect_all(study, next);
+    f = std::move(next);
+  };
+  expect_all(study, f);
+  errors = errors_at(study, f, refinement, doubt);
+  refit(rough);
+  if (refinement && !refinement->holds(study, f)) errors = errors_at(study, f, refinement, doubt);
+  refit(FitOptions().precision);
 }
 
 void settle_fitted(Base& base, const ModelDoubt& doubt) {
   Account& a = base.account;
   settle(*a.study, a.shared, a.fit, base.evidence.fitted, base.refinement.get(), doubt);
-  const Projection projection(a.fit, base.evidence.fitted.covariance);
-  a.chi_square = projection.chi_square(), a.dof = projection.dof();
+  test_residuals(a, base.evidence.fitted);
 }
 
 /// The study that candidates' derivatives are taken of: unknown supports need theirs, too.
@@ -106,28 +98,26 @@ void move_base(Base& base, const Account& winner, const std::vector<Candidate>& 
   if (!a.heldout_study) return;
   // The winner's own fit stays where the settled parameters have none.
   a.heldout_study = winner.heldout_study, a.heldout = winner.heldout;
-  for (int times = 0; times < corrections; ++times) {
+  for (bool last : {false, true}) {
     Account next = a;
     fit_heldout(next, a.heldout.conditions, evidence);
     if (next.heldout.conditions.size() != a.heldout.conditions.size()) break;
     a.heldout_study = next.heldout_study, a.heldout = std::move(next.heldout);
-    if (times + 1 < corrections)
+    if (!last)
       evidence.heldout =
           errors_at(*a.heldout_study, a.heldout, base.refinement.get(), options.doubt);
   }
 }
 
-void settle_account(const Base& base, Account& account, const std::vector<Candidate>& effects,
-                    const DiscoverOptions& options) {
-  if (!base.refinement || !options.correct_mesh) return;
+void settle_account(const Base& base, Account& account, const std::vector<Candidate>& effects) {
+  if (!base.refinement) return;
   Account a = account;
   Evidence evidence = base.evidence;
   a.refinement = refinement_under(a, effects, base);
   evidence.fitted.corrections = a.refinement->corrections(*a.study, a.fit);
   a.fit = fit(*a.study, a.shared, &evidence.fitted, {&account.fit.conditions});
   if (!a.fit.converged) return;
-  const Projection projection(a.fit, evidence.fitted.covariance);
-  a.chi_square = projection.chi_square(), a.dof = projection.dof();
+  test_residuals(a, evidence.fitted);
   if (a.heldout_study) {
     evidence.heldout.corrections = a.refinement->corrections(*a.heldout_study, a.heldout);
     fit_heldout(a, account.heldout.conditions, evidence);

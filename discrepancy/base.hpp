@@ -25,8 +25,7 @@ void move_base(Base& base, const Account& winner, const std::vector<Candidate>& 
 /// Fits an account once more with the mesh's error under it, which it had not when it was refitted:
 /// of an effect of the tissue the mesh misses a part, of a head pose none. Stays as it is where
 /// that does not succeed.
-void settle_account(const Base& base, Account& account, const std::vector<Candidate>& effects,
-                    const DiscoverOptions& options);
+void settle_account(const Base& base, Account& account, const std::vector<Candidate>& effects);
 
 /// Lets the base start where a better account ends once what it adds goes away: it may have found a
 /// valley of the forces that has nothing to do with that. Returns the log evidence gained by it.

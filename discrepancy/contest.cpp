@@ -72,7 +72,7 @@ class Refits {
     for (size_t i : near) {
       std::vector<Candidate> effects = found;
       effects.push_back(all[i].candidate);
-      settle_account(base_, contest_.accounts[i], effects, options_);
+      settle_account(base_, contest_.accounts[i], effects);
       take_odds(i);
       tell(fmt::format("  {} with the mesh's error under it: log odds {:.1f}",
                        all[i].candidate.label(), all[i].log_odds));

@@ -5,12 +5,11 @@
 #include <map>
 #include <numbers>
 
+#include "forward/half_model.hpp"
 #include "forward/hex8.hpp"
 
 namespace genio {
 namespace {
-
-constexpr double on_plane = 1e-6;  // [m]
 
 /// Contour that each residual's point was traced with: -1 a point by itself.
 std::vector<int> contours(const Target& t) {
@@ -116,6 +115,9 @@ Matrix efficacy_covariance(const Study& study, const JointFit& fit,
   Eigen::Index rows = 0, first = 0;
   for (const Matrix& a : influences) rows += a.rows();
   std::map<std::string, Vector> each, both;  // residuals of all conditions by a muscle's scale
+  const auto add = [&](auto& sums, const std::string& name, Eigen::Index at, const Vector& r) {
+    sums.try_emplace(name, Vector::Zero(rows)).first->second.segment(at, r.size()) += r;
+  };
   for (size_t k = 0; k < influences.size(); first += influences[k++].rows()) {
     const FittedCondition& c = fit.conditions[k];
     const Model& model = study.model(k);
@@ -125,15 +127,11 @@ Matrix efficacy_covariance(const Study& study, const JointFit& fit,
         pulling.push_back(p);
     const Matrix by_force = influences[k] * force_derivatives(model, c.x, c.parameters, pulling);
     for (size_t i = 0; i < pulling.size(); ++i) {
-      const std::string& name = model.parameters[size_t(pulling[i])].name;
-      const Vector by_scale = c.parameters[pulling[i]] * by_force.col(Eigen::Index(i));
-      for (auto* sums : {&each, &both}) {
-        auto& sum = (*sums)[sums == &both ? bilateral_name(name) : name];
-        if (sum.size() == 0) sum = Vector::Zero(rows);
-        sum.segment(first, by_scale.size()) += by_scale;
-      }
+      add(each, model.parameters[size_t(pulling[i])].name, first,
+          c.parameters[pulling[i]] * by_force.col(Eigen::Index(i)));
     }
   }
+  for (const auto& [name, r] : each) add(both, bilateral_name(name), 0, r);
   Matrix covariance = Matrix::Zero(rows, rows);
   const double variance = doubt.efficacy_sd * doubt.efficacy_sd;
   for (const auto& [name, r] : both)

@@ -77,11 +77,13 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
   } catch (const InputError& e) {
     a.message = e.what();
   }
-  if (a.fitted()) {
-    const Projection projection(a.fit, evidence.fitted.covariance);
-    a.chi_square = projection.chi_square(), a.dof = projection.dof();
-  }
+  if (a.fitted()) test_residuals(a, evidence.fitted);
   return a;
+}
+
+void test_residuals(Account& a, const Errors& errors) {
+  const Projection projection(a.fit, errors.covariance);
+  a.chi_square = projection.chi_square(), a.dof = projection.dof();
 }
 
 Explanation explanation_of(const Account& a) {

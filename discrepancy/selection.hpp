@@ -41,6 +41,9 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
 void fit_heldout(Account& account, const std::vector<FittedCondition>& start,
                  const Evidence& evidence);
 
+/// Sets chi_square and dof of its fit.
+void test_residuals(Account& account, const Errors& errors);
+
 /// Where shared parameters stand in a description: fitted values written into its effects.
 ModelDescription with_fitted(ModelDescription description, const JointFit& fit);
 

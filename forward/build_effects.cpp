@@ -24,6 +24,7 @@
 #include "forward/effects/stiff_region.hpp"
 #include "forward/effects/viscosity.hpp"
 #include "forward/effects/weak_muscle.hpp"
+#include "forward/half_model.hpp"
 #include "forward/nearest_name.hpp"
 #include "forward/places.hpp"
 #include "forward/surface_field.hpp"
@@ -94,7 +95,7 @@ Made hyoid_mobility(Settings& s, const Anatomy& a) {
   std::vector<double> shares(nodes.size(), 1.0);
   double whole = double(nodes.size());
   for (int n : of_half) {
-    const bool middle = std::abs(a.description.mesh.nodes[size_t(n)][1]) < 1e-6;
+    const bool middle = std::abs(a.description.mesh.nodes[size_t(n)][1]) < on_plane;
     nodes.push_back(n), shares.push_back(middle ? 0.5 : 1.0);
     whole += 2 * shares.back();
   }

@@ -8,8 +8,6 @@
 namespace genio {
 namespace {
 
-constexpr double on_plane = 1e-6;  // [m]
-
 /// New number of every node; -1 for those left behind.
 std::vector<int> right_half(const HexMesh& mesh, const std::string& source, HexMesh& half) {
   std::vector<int> number(mesh.nodes.size(), -1);
@@ -60,8 +58,7 @@ ModelDescription half_of(const ModelDescription& whole, const std::string& sourc
     if (number[a] < 0) continue;
     Support s = whole.supports[a];
     if (s == Support::horizontal) s = Support::forward;
-    if (s == Support::free && std::abs(whole.mesh.nodes[a][1]) < on_plane)
-      s = in_midplane;
+    if (s == Support::free && std::abs(whole.mesh.nodes[a][1]) < on_plane) s = in_midplane;
     d.supports.push_back(s);
   }
   d.muscles.clear();

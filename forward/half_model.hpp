@@ -3,6 +3,9 @@
 
 namespace genio {
 
+/// A node this near y = 0 lies in the midsagittal plane [m].
+constexpr double on_plane = 1e-6;
+
 /// The speaker's right half (y >= 0) of a tongue that is its own mirror image, its midsagittal
 /// nodes held in the plane: the same shapes for symmetric commands at less than half the cost.
 /// Commands are those of the right side; an unpaired muscle keeps half its force. Throws InputError

@@ -9,7 +9,6 @@
 namespace genio {
 namespace {
 
-constexpr double on_plane = 1e-6;      // [m]
 constexpr double same_place = 1e-6;    // [m]
 constexpr double same_force = 1e-6;    // of the largest
 constexpr double same_surface = 1e-4;  // [m], about what its sampling leaves
