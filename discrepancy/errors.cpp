@@ -11,10 +11,12 @@ Corrections smoothing(const Study& study, const JointFit& fit) {
   for (size_t k = 0; k < study.size(); ++k) {
     const FittedCondition& c = fit.conditions[k];
     const HeadPose pose = head_pose(c.commands, c.z);
-    const auto values = [&](double smooth) {
-      return Comparison(study.model(k), study.condition(k).target, smooth)(c.x, pose).values;
+    const auto residuals = [&](double smooth) {
+      return Comparison(study.model(k), study.condition(k).target, smooth)(c.x, pose);
     };
-    result.push_back(values(0) - values(surface_smoothing));
+    Residuals exact = residuals(0);
+    Vector added = exact.values - residuals(surface_smoothing).values;
+    result.push_back({std::move(added), std::move(exact)});
   }
   return result;
 }

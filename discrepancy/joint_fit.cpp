@@ -13,7 +13,6 @@
 namespace genio {
 namespace {
 
-constexpr double interval = 1.645;  // standard deviations of a 90 % interval
 constexpr int most_steps = 25;
 constexpr double roughness = 1;  // of the log posterior
 // Of conditions inverted by themselves:
@@ -128,51 +127,28 @@ Vector spikes_at_rest(const Study& study, const JointFit& f, const std::vector<E
   return spikes;
 }
 
-/// t > 0 that a density exp(-slope t - t^2 / (2 sd^2)) on t >= 0 exceeds once in ten.
-double one_in_ten(double slope, double sd) {
-  const auto tail = [&](double t) {
-    return std::erfc((t / sd + slope * sd) / std::numbers::sqrt2);
-  };
-  if (slope * sd > 6) return std::numbers::ln10 / slope;
-  double low = 0, high = interval * sd;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (tail(middle) > 0.1 * tail(0) ? low : high) = middle;
-  }
-  return low;
-}
-
-/// `open`: which unknowns the density is of. Unknowns that a bound presses on stay there, but for
-/// the one that is looked at.
-void summarise_shared(JointFit& f, const Model& model, const BoxGaussian& density,
+/// `all`: of the unknowns `open`.
+void summarise_shared(JointFit& f, const Model& model, const BoxIntegral& all,
                       const std::vector<Eigen::Index>& open) {
   const FittedCondition& c = f.conditions.front();
   for (size_t i = 0; i < c.commands.size(); ++i) {
     if (c.which[i] < f.own) continue;
     const Command& command = c.commands[i];
     SharedEstimate e{command.name, command.unit, c.z[Eigen::Index(i)] * command.scale};
+    e.low = e.high = e.value;
+    if (const auto at = std::find(open.begin(), open.end(), c.which[i]); at != open.end()) {
+      const Eigen::Index k = at - open.begin();
+      const CutNormal cut =
+          cut_normal(all.centre[k], all.sd[k], f.lower[c.which[i]], f.upper[c.which[i]]);
+      e.value = command.scale * cut.mode, e.sd = command.scale * cut.sd;
+      e.low = command.scale * cut.low, e.high = command.scale * cut.high;
+    }
     // Through its unit and back a value may leave a bound by a rounding error.
     for (int k : command.parameters)
-      e.value = std::clamp(e.value, model.parameters[size_t(k)].info.lower,
-                           model.parameters[size_t(k)].info.upper);
-    e.low = e.high = e.value;
+      for (double* v : {&e.value, &e.low, &e.high})
+        *v = std::clamp(*v, model.parameters[size_t(k)].info.lower,
+                        model.parameters[size_t(k)].info.upper);
     f.shared.push_back(e);
-    const auto found = std::find(open.begin(), open.end(), c.which[i]);
-    if (found == open.end()) continue;
-    const Eigen::Index at = found - open.begin();
-    std::vector<Eigen::Index> with{at};
-    for (Eigen::Index k = 0; k < density.slope.size(); ++k)
-      if (k != at && pressed(density, k) == 0) with.push_back(k);
-    const double sd = std::sqrt(
-        density.hessian(with, with).llt().solve(Vector::Unit(Eigen::Index(with.size()), 0))[0]);
-    const int side = pressed(density, at);
-    const double one_sided = side == 0 ? 0 : one_in_ten(std::abs(density.slope[at]), sd);
-    const double below = side == 0 ? interval * sd : side > 0 ? one_sided : 0;
-    const double above = side == 0 ? interval * sd : side < 0 ? one_sided : 0;
-    SharedEstimate& estimate = f.shared.back();
-    estimate.sd = command.scale * (side == 0 ? sd : one_sided / std::numbers::ln10);
-    estimate.low = std::max(command.lower * command.scale, e.value - command.scale * below);
-    estimate.high = std::min(command.upper * command.scale, e.value + command.scale * above);
   }
 }
 
@@ -248,9 +224,10 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
     if (pressed(density, i) == 0) density.slope[i] = 0;
   const PriorMass mass = prior_mass(f, open);
   const Vector spikes = spikes_at_rest(study, f, open, mass);
-  f.log_evidence = -f.value + log_integral(density, spikes) - mass.log_all -
-                   double((spikes.array() > 0).count()) * std::numbers::ln2;
-  summarise_shared(f, study.model(0), density, open);
+  const BoxIntegral all = integral(density, spikes);
+  f.log_evidence =
+      -f.value + all.log - mass.log_all - double((spikes.array() > 0).count()) * std::numbers::ln2;
+  summarise_shared(f, study.model(0), all, open);
   return f;
 }
 

@@ -53,9 +53,13 @@ struct JointFit {
   Matrix jacobian() const;   ///< of them, by all unknowns
 };
 
-/// What is added to each condition's residuals for the mesh's own error, in units of the noise
-/// (empty: nothing).
-using Corrections = std::vector<Vector>;
+/// What a condition's residuals would be by exact distances from the fine tongue.
+struct Correction {
+  Vector added;     ///< to the fit's residuals, in units of the noise
+  Residuals exact;  ///< as they are there
+};
+/// Of each condition (empty: nothing is added).
+using Corrections = std::vector<Correction>;
 
 /// Residuals of one set of conditions: how they may be off although nothing is missing.
 struct Errors {

@@ -82,7 +82,7 @@ JointProblem::JointProblem(Study& study, const SharedPrior& shared, const Errors
     prior.parameters = shared.parameters;
     if (shared.head_pose) prior.head_pose = shared.head_pose;
     parts_.push_back(std::make_unique<Part>(study, k, prior, starting(study, k, options),
-                                            corrected ? errors->corrections[k] : Vector()));
+                                            corrected ? errors->corrections[k].added : Vector()));
     const bool pose_is_shared = shared.head_pose.has_value();
     for (const Command& c : parts_.back()->objective.commands())
       parts_.back()->which.push_back(c.kind == Command::Kind::parameter ||

@@ -82,7 +82,7 @@ Refinement::Refinement(ModelDescription description, const Refinement& before)
 bool Refinement::holds(const FittedCondition& c, size_t condition) const {
   const auto k = known_.find(condition);
   return k != known_.end() && k->second.fitted.size() == c.x.size() &&
-         k->second.correction.size() == c.residuals.values.size() &&
+         k->second.correction.added.size() == c.residuals.values.size() &&
          (k->second.fitted - c.x).cwiseAbs().maxCoeff() < nearby;
 }
 
@@ -104,7 +104,7 @@ Positions Refinement::nearest_fine(const Tongues& t, const Positions& rest,
   return *nearest;
 }
 
-Vector Refinement::correction(const Model& fitted, const FittedCondition& c, size_t condition) {
+Correction Refinement::correction(const Model& fitted, const FittedCondition& c, size_t condition) {
   const Condition& seen = observations_.conditions[condition];
   auto& made = tongues_[seen.effects];
   if (!made) made = std::make_unique<Tongues>(under(description_, seen.effects));
@@ -112,7 +112,7 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c, siz
   SolveOptions options;
   options.tolerance = tolerance;
   const Parameters p = evened(t.coarse, fitted, c.parameters, t.mirror != nullptr);
-  const Vector none = Vector::Zero(c.residuals.values.size());
+  const Correction none{Vector::Zero(c.residuals.values.size()), c.residuals};
   const Equilibrium rough = solve_equilibrium(t.coarse, p, c.x, t.coarse_workspace, options);
   if (!rough) return none;
   const Model& near = t.mirror ? t.mirror->half : t.coarse;
@@ -134,8 +134,10 @@ Vector Refinement::correction(const Model& fitted, const FittedCondition& c, siz
   const HeadPose pose = head_pose(c.commands, c.z);
   const Target& target = seen.target;
   // Smooth distances from a curved surface are longer than they are; that goes with the rest.
-  return known.correction = Comparison(t.whole, target)(x, pose).values -
-                            Comparison(t.coarse, target, surface_smoothing)(rough.x, pose).values;
+  known.correction.exact = Comparison(t.whole, target)(x, pose);
+  known.correction.added = known.correction.exact.values -
+                           Comparison(t.coarse, target, surface_smoothing)(rough.x, pose).values;
+  return known.correction;
 }
 
 Corrections Refinement::corrections(const Study& study, const JointFit& fit) {

@@ -36,14 +36,14 @@ class Refinement {
   struct Known {
     Positions coarse, fine;  ///< shapes without and with every element split (half) [m]
     Positions fitted;        ///< that the correction was asked for; empty: of another description
-    Vector correction;
+    Correction correction;
   };
   /// Of the fine shapes known so far the one whose coarse shape is nearest: a coarse shape between
   /// the nodes of the fine mesh is a worse start, its volumes are wrong from point to point.
   Positions nearest_fine(const Tongues& tongues, const Positions& rest,
                          const Positions& coarse) const;
   bool holds(const FittedCondition& fit, size_t condition) const;
-  Vector correction(const Model& fitted, const FittedCondition& fit, size_t condition);
+  Correction correction(const Model& fitted, const FittedCondition& fit, size_t condition);
 
   ModelDescription description_;
   const Observations& observations_;

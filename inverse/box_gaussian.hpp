@@ -30,11 +30,25 @@ int pressed(const BoxGaussian& density, Eigen::Index i);
 /// is not positive definite.
 Matrix sample(const BoxGaussian& density, int count);
 
-/// Logarithm of the integral of the density between its bounds, H positive definite.
+/// A density integrated between its bounds, H positive definite, with a point mass at each lower
+/// bound beside the even measure between the bounds.
+struct BoxIntegral {
+  double log = 0;
+  /// Of each unknown, all others integrated over: the normal that its own bounds cut.
+  Vector centre, sd;
+};
+
+/// `spikes`: the point masses, 0 for none [length of the unknown].
+BoxIntegral integral(const BoxGaussian& density, const Vector& spikes);
+
+/// Its logarithm without point masses.
 double log_integral(const BoxGaussian& density);
 
-/// The same with a point mass at each lower bound beside the even measure between the bounds:
-/// `spikes`, 0 for none [length of the unknown].
-double log_integral(const BoxGaussian& density, const Vector& spikes);
+/// A normal cut at lower < upper: its mode, standard deviation and shortest interval that holds
+/// nine in ten.
+struct CutNormal {
+  double mode, sd, low, high;
+};
+CutNormal cut_normal(double centre, double sd, double lower, double upper);
 
 }  // namespace genio

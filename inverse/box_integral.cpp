@@ -84,13 +84,13 @@ double log_normaliser(double shift, double precision) {
 
 }  // namespace
 
-double log_integral(const BoxGaussian& g) { return log_integral(g, Vector::Zero(g.mode.size())); }
+double log_integral(const BoxGaussian& g) { return integral(g, Vector::Zero(g.mode.size())).log; }
 
-double log_integral(const BoxGaussian& g, const Vector& spikes) {
+BoxIntegral integral(const BoxGaussian& g, const Vector& spikes) {
   const Eigen::Index n = g.mode.size();
-  if (n == 0) return 0;
+  BoxIntegral all{0, g.mode, Vector::Zero(n)};
+  if (n == 0) return all;
   Vector precision = Vector::Zero(n), shift = Vector::Zero(n);  // of each unknown's stand-in
-  double result = 0;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     const Eigen::LLT<Matrix> factor(g.hessian + Matrix(precision.asDiagonal()));
     Matrix covariance = factor.solve(Matrix::Identity(n, n));
@@ -109,9 +109,11 @@ double log_integral(const BoxGaussian& g, const Vector& spikes) {
       const auto [p, s, m] = others(i);
       const double here = 1 / covariance(i, i);
       sum += m.log_mass + log_normaliser(s, p) - log_normaliser(mean[i] * here, here);
+      all.centre[i] = g.mode[i] + s / p, all.sd[i] = std::sqrt(1 / p);
     }
-    const bool settled = std::abs(sum - result) < tolerance;
-    result = sum;
+    sum += 0.5 * double(n) * std::log(2 * std::numbers::pi);
+    const bool settled = std::abs(sum - all.log) < tolerance;
+    all.log = sum;
     if (sweep > 0 && settled) break;
     const double part = sweep < calm ? 1 : 0.5;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -126,7 +128,25 @@ double log_integral(const BoxGaussian& g, const Vector& spikes) {
       covariance -= k * column * column.transpose();
     }
   }
-  return result + 0.5 * double(n) * std::log(2 * std::numbers::pi);
+  return all;
+}
+
+CutNormal cut_normal(double centre, double sd, double lower, double upper) {
+  CutNormal cut{std::clamp(centre, lower, upper), 0, 0, 0};
+  cut.sd = std::sqrt(within(centre, sd * sd, lower, upper).variance);
+  // All that is nearer to the centre than some distance.
+  const auto low = [&](double t) { return std::max(lower, centre - t); };
+  const auto high = [&](double t) { return std::min(upper, centre + t); };
+  double least = std::abs(cut.mode - centre), most = least;
+  for (double step = sd; low(most) > lower || high(most) < upper; step *= 2) most += step;
+  const double whole = within(centre, sd * sd, lower, upper).log_mass + std::log(0.9);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (least + most);
+    const bool enough = within(centre, sd * sd, low(middle), high(middle)).log_mass > whole;
+    (enough ? most : least) = middle;
+  }
+  cut.low = low(most), cut.high = high(most);
+  return cut;
 }
 
 }  // namespace genio

@@ -249,5 +249,17 @@ TEST(NoiseCovariance, IsWhiteWithoutALengthAndPositiveDefiniteWithOne) {
   EXPECT_EQ(c(10, 40), 0);  // another contour
 }
 
+TEST(NoiseCovariance, OfPointsShiftedAlongADimpledSurfaceChangesSign) {
+  const Model m = read_model(test::generic_model());
+  const Target t = curve_target(m, m.rest, 40, 5e-4);
+  Residuals r = Comparison(m, t)(m.rest);
+  for (size_t i = 0; i < r.gradient.size(); ++i)
+    r.gradient[i] = {{0, Vec3(i % 2 == 0 ? 1 : -1, 0, 1)}};  // 45 degrees, to and fro
+  const Matrix c = noise_covariance(t, r, 8e-3);
+  const double apart = (r.places[10] - r.places[12]).norm();
+  EXPECT_NEAR(c(10, 11), 0, 1e-12);
+  EXPECT_NEAR(c(10, 12), std::exp(-apart / 8e-3), 1e-12);
+}
+
 }  // namespace
 }  // namespace genio

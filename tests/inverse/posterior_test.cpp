@@ -89,7 +89,7 @@ TEST(Evidence, CountsWhatBoundsCutOffCorrelatedUnknowns) {
 TEST(Evidence, CountsAPointMassAtABound) {
   // By itself, and of two unknowns that trade: four cases, each an integral by itself.
   const double h = 1e4, spike = 0.05, between = std::sqrt(2 * M_PI / h);
-  EXPECT_NEAR(log_integral(one(0, 0, h, 0, 1), Vector::Constant(1, spike)),
+  EXPECT_NEAR(integral(one(0, 0, h, 0, 1), Vector::Constant(1, spike)).log,
               std::log(0.5 * between + spike), 1e-6);
   Matrix hessian(2, 2);
   hessian << 900, 300, 300, 400;
@@ -101,8 +101,8 @@ TEST(Evidence, CountsAPointMassAtABound) {
   };
   const double all = box({0, 1}) + 0.1 * box({0}) + 0.1 * box({1}) + 0.01;
   EXPECT_NEAR(
-      log_integral({Vector::Zero(2), slope, hessian, Vector::Zero(2), Vector::Constant(2, 1)},
-                   spikes),
+      integral({Vector::Zero(2), slope, hessian, Vector::Zero(2), Vector::Constant(2, 1)}, spikes)
+          .log,
       std::log(all), 0.05);
 }
 
@@ -116,6 +116,49 @@ TEST(Evidence, IsThatOfEqualCorrelationsInTenUnknowns) {
       log_integral(g),
       0.5 * n * std::log(2 * M_PI) + 0.5 * std::log(covariance.determinant()) - std::log(n + 1),
       0.05);
+}
+
+TEST(BoxIntegral, CentresAnUnknownOnWhatTheOthersLeaveIt) {
+  // z0 + z1 is seen, z1 >= 0 rests as often as it pulls: z0 makes up for half of what z1 might do.
+  Matrix hessian(2, 2);
+  hessian << 110, 100, 100, 125;
+  const Vector slope = Vector::Zero(2), spikes{{0, 0.2}};
+  const BoxGaussian g{Vector{{5, 0}}, slope, hessian, Vector{{0, 0}}, Vector{{10, 10}}};
+  double mass = 0, first = 0, second = 0;
+  for (int i = -4000; i <= 4000; ++i)
+    for (int j = 0; j <= 2000; ++j) {
+      const double x = 2.5e-4 * i, y = 5e-4 * j;
+      const double weight = j == 0 ? spikes[1] + 2.5e-4 : 5e-4;  // half a step, and the point
+      const double p = weight * std::exp(-0.5 * (110 * x * x + 200 * x * y + 125 * y * y));
+      mass += p, first += p * x, second += p * x * x;
+    }
+  const BoxIntegral all = integral(g, spikes);
+  const double mean_of_x = first / mass;
+  EXPECT_LT(mean_of_x, -0.02);
+  EXPECT_NEAR(all.centre[0], 5 + mean_of_x, 0.1 * std::abs(mean_of_x));
+  EXPECT_NEAR(all.sd[0], std::sqrt(second / mass - mean_of_x * mean_of_x), 0.05 * all.sd[0]);
+}
+
+TEST(CutNormal, HasTheShortestIntervalThatHoldsNineInTen) {
+  const CutNormal inside = cut_normal(2, 0.1, 0, 10);
+  EXPECT_NEAR(inside.low, 2 - 0.16449, 1e-4);
+  EXPECT_NEAR(inside.high, 2 + 0.16449, 1e-4);
+  EXPECT_NEAR(inside.sd, 0.1, 1e-6);
+  const CutNormal half = cut_normal(0, 0.1, 0, 10);
+  EXPECT_EQ(half.low, 0);
+  EXPECT_NEAR(half.high, 0.16449, 1e-4);
+  // Far beyond a bound it is an exponential of slope distance / variance.
+  const CutNormal pressed = cut_normal(-100, 1, 0, 10);
+  EXPECT_EQ(pressed.mode, 0);
+  EXPECT_EQ(pressed.low, 0);
+  EXPECT_NEAR(pressed.high, std::log(10) / 100, 1e-4);
+  const CutNormal above = cut_normal(11, 1, 0, 10);
+  EXPECT_EQ(above.mode, 10);
+  EXPECT_EQ(above.high, 10);
+  EXPECT_LT(above.low, 9.2);
+  // As good as even: anything nine tenths as long would do, this one holds the centre.
+  const CutNormal even = cut_normal(0.3, 1e4, 0, 1);
+  EXPECT_NEAR(even.high - even.low, 0.9, 1e-3);
 }
 
 TEST(Marginal, FarFromBoundsIsCentral) {
