@@ -3,7 +3,6 @@
 #include "discrepancy/score.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "discrepancy/error_model.hpp"
 #include "discrepancy/influence.hpp"
@@ -171,94 +170,6 @@ TEST_F(Scores, ProjectionTakesAwayWhatTheUnknownsCanDo) {
                 (1 + 1e-9));
   EXPECT_GT(projection.dof(), 0);
   EXPECT_LT(projection.dof(), double(f.residuals().size()));
-}
-
-TEST_F(Scores, TurnedFibresStillBalance) {
-  look_at(tongue);
-  const FittedCondition& c = f.conditions[0];
-  Matrix sum = Matrix::Zero(3, c.x.size());
-  for (Eigen::Index i = 0; i < c.x.size(); ++i) sum(i % 3, i) = 1;
-  const Matrix total = fibre_influence(study->model(0), c, sum);
-  // Of a single node's force a turn makes something.
-  Matrix single = Matrix::Zero(1, c.x.size());
-  single(0, 3 * study->model(0).muscles[0].fibres[0][1].node) = 1;
-  const double some = fibre_influence(study->model(0), c, single).norm();
-  EXPECT_GT(some, 0);
-  EXPECT_LT(total.norm(), 1e-9 * some);
-}
-
-TEST(FibreCovariance, HasTheAngleOfTheDoubtOnBothSidesAndMostOfItAlike) {
-  const Model m = read_model(test::generic_model());
-  const ModelDoubt doubt;
-  const double slope = doubt.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
-  const double variance = std::pow(slope * doubt.fibre_length, 2);
-  for (int axis : {0, 1, 2}) {
-    const Matrix c = fibre_covariance(m, doubt, axis);
-    for (Eigen::Index a = 0; a < c.rows(); ++a) {
-      const Vec3& x = m.mesh.nodes[size_t(a)];
-      if (std::abs(x[1]) < 1e-6 && axis == 1) continue;  // alike, it stays in the plane
-      EXPECT_NEAR(c(a, a), variance, 1e-9 * variance);
-      for (Eigen::Index b = 0; b < c.rows(); ++b) {
-        const Vec3& y = m.mesh.nodes[size_t(b)];
-        if (x[1] < 0.015 || (Vec3(x[0], -x[1], x[2]) - y).norm() > 1e-6) continue;
-        EXPECT_NEAR(c(a, b), (axis == 1 ? -1 : 1) * doubt.fibres_alike * variance, 2e-3 * variance);
-      }
-    }
-  }
-}
-
-TEST_F(Scores, MusclesThatDoMoreForTheirForceAreForgiven) {
-  look_at(tongue);
-  ModelDoubt doubt;
-  doubt.efficacy_sd = 0.2;
-  const Matrix c = efficacy_covariance(*study, f, influences, doubt);
-  EXPECT_TRUE(c.isApprox(c.transpose()));
-  // One condition's muscles, all 20 % stronger: to first order what the covariance expects.
-  const FittedCondition& one = f.conditions[0];
-  Parameters stronger = one.parameters;
-  const Model& m = study->model(0);
-  double pulling = 0;
-  for (const Muscle& muscle : m.muscles) {
-    double& force = stronger[parameter_index(m, "muscles." + muscle.name)];
-    pulling += force > 0, force *= 1.001;
-  }
-  ASSERT_GT(pulling, 0);
-  Workspace ws(m);
-  const auto before = solve_equilibrium(m, one.parameters, one.x, ws),
-             after = solve_equilibrium(m, stronger, one.x, ws);
-  const Comparison compare(m, observations.conditions[study->members()[0]].target);
-  const Vector moved = (compare(after.x).values - compare(before.x).values) / 1e-3;
-  const auto n = moved.size();
-  const Matrix block =
-      c.topLeftCorner(n, n) + 1e-6 * c.trace() / double(n) * Matrix::Identity(n, n);
-  const double chi_square = (0.2 * moved).dot(block.llt().solve(0.2 * moved));
-  EXPECT_GT(chi_square, 0.5);
-  EXPECT_LT(chi_square, 4 * pulling);
-}
-
-TEST(NoiseCovariance, IsWhiteWithoutALengthAndPositiveDefiniteWithOne) {
-  const Model m = read_model(test::generic_model());
-  Target t = curve_target(m, m.rest, 40, 5e-4);
-  t.surface.push_back({Vec3(0.1, 0.01, 0.12), 5e-4, 1});
-  const Residuals r = Comparison(m, t)(m.rest);
-  EXPECT_TRUE(noise_covariance(t, r, 0).isIdentity(0));
-  const Matrix c = noise_covariance(t, r, 8e-3);
-  EXPECT_TRUE(c.isApprox(c.transpose()));
-  EXPECT_EQ(Eigen::LLT<Matrix>(c).info(), Eigen::Success);
-  EXPECT_GT(c(10, 11), 0.3);
-  EXPECT_EQ(c(10, 40), 0);  // another contour
-}
-
-TEST(NoiseCovariance, OfPointsShiftedAlongADimpledSurfaceChangesSign) {
-  const Model m = read_model(test::generic_model());
-  const Target t = curve_target(m, m.rest, 40, 5e-4);
-  Residuals r = Comparison(m, t)(m.rest);
-  for (size_t i = 0; i < r.gradient.size(); ++i)
-    r.gradient[i] = {{0, Vec3(i % 2 == 0 ? 1 : -1, 0, 1)}};  // 45 degrees, to and fro
-  const Matrix c = noise_covariance(t, r, 8e-3);
-  const double apart = (r.places[10] - r.places[12]).norm();
-  EXPECT_NEAR(c(10, 11), 0, 1e-12);
-  EXPECT_NEAR(c(10, 12), std::exp(-apart / 8e-3), 1e-12);
 }
 
 }  // namespace
