@@ -1,29 +1,56 @@
 #include "forward/refined_model.hpp"
 
+#include <array>
 #include <map>
 #include <set>
 
+#include "forward/hex8.hpp"
 #include "forward/refine.hpp"
 
 namespace genio {
 namespace {
 
-/// Node in the middle of two others of one element: of an edge, a face's or the volume's
-/// diagonal.
+/// Of one element split in eight, place (i, j, k) of its 3 x 3 x 3 nodes.
+using Place = std::array<int, 3>;
+
+int node_at(const HexMesh& fine, size_t element, const Place& place) {
+  int child = 0;
+  std::array<double, 3> corner;
+  for (size_t i = 0; i < 3; ++i) {
+    child |= (place[i] == 2) << i;
+    corner[i] = place[i] == 0 ? -1 : 1;
+  }
+  const auto& nodes = fine.elements[8 * element + size_t(child)];
+  for (size_t c = 0; c < 8; ++c)
+    if (hex8::corner[c][0] == corner[0] && hex8::corner[c][1] == corner[1] &&
+        hex8::corner[c][2] == corner[2])
+      return nodes[c];
+  return -1;
+}
+
+/// Node of the finer mesh in the middle of two others. By the elements: the middle of a warped face
+/// lies on neither of its diagonals.
 class Middles {
  public:
-  Middles(const HexMesh& old, const HexMesh& fine) : fine_(fine) {
-    for (size_t n = old.nodes.size(); n < fine.nodes.size(); ++n)
-      at_[place_cell(fine.nodes[n])] = int(n);
+  Middles(const HexMesh& old, const HexMesh& fine) {
+    std::vector<Place> places;
+    for (int n = 0; n < 27; ++n) places.push_back({n % 3, n / 3 % 3, n / 9});
+    for (size_t e = 0; e < old.elements.size(); ++e)
+      for (const Place& a : places)
+        for (const Place& b : places) {
+          const Place sum{a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+          if (a == b || sum[0] % 2 || sum[1] % 2 || sum[2] % 2) continue;
+          at_[{node_at(fine, e, a), node_at(fine, e, b)}] =
+              node_at(fine, e, {sum[0] / 2, sum[1] / 2, sum[2] / 2});
+        }
   }
   int operator()(int a, int b) const {
-    const auto it = at_.find(place_cell(0.5 * (fine_.nodes[size_t(a)] + fine_.nodes[size_t(b)])));
+    const auto it = at_.find({a, b});
     return it == at_.end() ? -1 : it->second;
   }
 
  private:
-  const HexMesh& fine_;
-  std::map<std::array<long long, 3>, int> at_;
+  std::map<std::pair<int, int>, int> at_;
 };
 
 Fibre with_middles(const Fibre& fibre, const Middles& middle) {
