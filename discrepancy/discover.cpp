@@ -106,7 +106,7 @@ class Search {
     d_.lines_after = lines(account());
     d_.families = families(observations(), d_.rounds.front());
     d_.model = with_fitted(account().description, account().fit);
-    d_.fit_tail = chi_square_tail(account().chi_square / options_.doubt.dispersion, account().dof);
+    d_.fit_tail = chi_square_tail(account().chi_square, account().dof);
     d_.effects = named(account().fit, effects_, confidence_);
     const bool explained = d_.fit_tail >= options_.fit_level;
     if (effects_.empty()) {

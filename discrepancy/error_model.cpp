@@ -64,21 +64,6 @@ Matrix noise_covariance(const Target& target, const Residuals& r, double length)
   return c;
 }
 
-Matrix averages(const Residuals& r, double reach) {
-  const auto count = Eigen::Index(r.rows.size());
-  Matrix w = Matrix::Zero(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const auto &a = r.rows[size_t(i)], &b = r.rows[size_t(k)];
-      if (a.axis != b.axis) continue;
-      const double apart = (r.places[size_t(a.point)] - r.places[size_t(b.point)]).squaredNorm();
-      w(i, k) = std::exp(-0.5 * apart / (reach * reach));
-    }
-    w.row(i) /= w.row(i).sum();
-  }
-  return w;
-}
-
 Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matrix& influence) {
   const Forces f = forces_of(model, c.x, c.parameters, is_muscles);
   Stiffness k(model.pattern);
@@ -169,7 +154,7 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
     const Model& model = study.model(k);
     const auto count = influences[k].rows();
     auto block = covariance.block(first[k], first[k], count, count);
-    // On a fine surface with dimples noise along it counts, too.
+    // By the normals of the finer tongue, which are nearer to the true ones.
     block += noise_covariance(study.condition(k).target,
                               corrections.empty() ? c.residuals : corrections[k].exact,
                               study.observations().noise_correlation);
@@ -186,9 +171,6 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
       mesh.segment(first[k], count) = added;
       for (Eigen::Index i = 0; i < count; ++i)
         size += std::pow(added[i] / c.residuals.rows[size_t(i)].scale, 2) / double(count);
-      // Fibres that pull at single nodes dimple a fine surface, turned ones elsewhere.
-      const Vector rough = added - averages(corrections[k].exact, doubt.dimples) * added;
-      block.diagonal() += (doubt.correction_sd * rough).cwiseAbs2();
     }
     block += model_error_covariance(
         c.residuals, std::max(doubt.least_mesh_error, doubt.correction_sd * std::sqrt(size)),

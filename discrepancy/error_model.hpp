@@ -14,21 +14,14 @@ struct ModelDoubt {
   double tissue_sd = 0.03;         ///< of the logarithm of the tissue's stiffness
   double correction_sd = 0.25;     ///< of the mesh's own error, as a part of its correction
   double least_mesh_error = 3e-5;  ///< [m]
-  double local_error = 1e-4;       ///< of the mesh within an element, from point to point [m]
+  double local_error = 5e-5;       ///< of the mesh within an element, from point to point [m]
   double mesh_length = 0.012;      ///< of the rest of the mesh's error [m]
-  double dimples = 4e-3;           ///< within which a correction may change by itself [m]
-  /// How much larger than foreseen a chi-square of a model that lacks nothing tends to be, by what
-  /// is not of first order. Set by `genio bench discover`.
-  double dispersion = 1.1;
 };
 
 /// Covariance of the noise of one condition's residuals, in units of its standard deviation:
 /// n.n' exp(-distance / length) within a contour for residuals across n and n' (each coordinate an
 /// Ornstein-Uhlenbeck process along it), and between contours none.
 Matrix noise_covariance(const Target& target, const Residuals& residuals, double length);
-
-/// Rows that average residuals about each of them, by a Gaussian of that width [m].
-Matrix averages(const Residuals& residuals, double reach);
 
 /// Forces that turned fibres make: rows of `influence` times d nodal force / d displacement u of
 /// the fibres in the tissue (rows x 3 n [1/m]). A muscle's force f at x(X + u) works on the tissue

@@ -7,8 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "discrepancy/error_model.hpp"
-
 namespace genio {
 namespace {
 
@@ -31,15 +29,24 @@ Matrix after_fit(const JointFit& fit, const Matrix& covariance) {
   return covariance - j * h.llt().solve(j.transpose());
 }
 
-/// Those of every condition.
-Matrix all_averages(const JointFit& fit, double reach) {
+/// Rows that average residuals of one condition about each of its rows.
+Matrix averages(const JointFit& fit, double reach) {
   const auto n = fit.residuals().size();
   Matrix w = Matrix::Zero(n, n);
   Eigen::Index first = 0;
   for (const auto& c : fit.conditions) {
-    const Matrix part = averages(c.residuals, reach);
-    w.block(first, first, part.rows(), part.rows()) = part;
-    first += part.rows();
+    const auto& r = c.residuals;
+    const auto count = Eigen::Index(r.rows.size());
+    for (Eigen::Index i = 0; i < count; ++i) {
+      for (Eigen::Index k = 0; k < count; ++k) {
+        const auto &a = r.rows[size_t(i)], &b = r.rows[size_t(k)];
+        if (a.axis != b.axis) continue;
+        const double apart = (r.places[size_t(a.point)] - r.places[size_t(b.point)]).squaredNorm();
+        w(first + i, first + k) = std::exp(-0.5 * apart / (reach * reach));
+      }
+      w.row(first + i) /= w.row(first + i).sum();
+    }
+    first += count;
   }
   return w;
 }
@@ -77,7 +84,7 @@ ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& cova
   ResidualMap map;
   map.false_discovery_rate = rate;
   const Vector r = fit.residuals();
-  const Matrix w = all_averages(fit, reach);
+  const Matrix w = averages(fit, reach);
   const Vector mean = w * r;
   const Vector variance = (w * after_fit(fit, covariance)).cwiseProduct(w).rowwise().sum();
   std::vector<double> p;

@@ -40,22 +40,6 @@ TEST_F(ErrorModel, TurnedFibresStillBalance) {
   EXPECT_LT(total.norm(), 1e-9 * some);
 }
 
-TEST_F(ErrorModel, DimplesOfTheFineSurfaceMayLieElsewhere) {
-  look_at(tongue);
-  const auto covariance = [&](bool dimpled) {
-    Corrections all;
-    for (const FittedCondition& c : f.conditions) {
-      Vector added = Vector::Constant(c.residuals.values.size(), 2);
-      for (Eigen::Index i = 1; i < added.size() && dimpled; i += 2) added[i] = -2;
-      all.push_back({added, c.residuals});
-    }
-    return residual_covariance(*study, f, influences, all, {});
-  };
-  // As much of a correction everywhere, but from point to point to and fro.
-  const double more = (covariance(true) - covariance(false)).diagonal().mean();
-  EXPECT_NEAR(more, std::pow(2 * ModelDoubt().correction_sd, 2), 0.1);
-}
-
 TEST(FibreCovariance, HasTheAngleOfTheDoubtOnBothSidesAndMostOfItAlike) {
   const Model m = read_model(test::generic_model());
   const ModelDoubt doubt;
