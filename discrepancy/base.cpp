@@ -7,7 +7,8 @@
 namespace genio {
 namespace {
 
-constexpr double rough = 1;  // precision of a first fit, of the log posterior
+constexpr double rough = 1;     // precision of a first fit, of the log posterior
+constexpr int most_passes = 2;  // of corrections and fits under them
 
 void expect_all(const Study& study, const JointFit& f) {
   if (f.conditions.size() != study.size())
@@ -114,9 +115,12 @@ void settle_account(const Base& base, Account& account, const std::vector<Candid
   Account a = account;
   Evidence evidence = base.evidence;
   a.refinement = refinement_under(a, effects, base);
-  evidence.fitted.corrections = a.refinement->corrections(*a.study, a.fit);
-  a.fit = fit(*a.study, a.shared, &evidence.fitted, {&account.fit.conditions});
-  if (!a.fit.converged) return;
+  for (int passes = 0; passes < most_passes && !a.refinement->holds(*a.study, a.fit); ++passes) {
+    evidence.fitted.corrections = a.refinement->corrections(*a.study, a.fit);
+    JointFit next = fit(*a.study, a.shared, &evidence.fitted, {&a.fit.conditions});
+    if (!next.converged) return;
+    a.fit = std::move(next);
+  }
   test_residuals(a, evidence.fitted);
   if (a.heldout_study) {
     evidence.heldout.corrections = a.refinement->corrections(*a.heldout_study, a.heldout);

@@ -18,7 +18,7 @@ struct DiscoverOptions {
   /// Largest probability of nothing with which a name is given: errors that go beyond the first
   /// order count as evidence too. Set by `genio bench discover`.
   double nothing = 1e-3;
-  double fit_level = 1e-3;  ///< of the test that what is left is noise
+  double fit_level = 0.01;  ///< of the test that what is left is noise
   std::function<void(const std::string&)> progress;
 };
 
