@@ -22,7 +22,7 @@ BatchTissue scaled(const Points& points, double a10, double a20, Scale scale) {
 
 StiffRegion::StiffRegion(const HexMesh& mesh, double factor, const Vec3& centre, double radius)
     : TissueEffect(mesh),
-      info_{{{"factor", "1", factor, 0.05, 100, 1, false, false, 4},
+      info_{{{"factor", "1", factor, 0.05, 100, 1, false, false, 10},
              {"x", "m", centre[0], -1, 1, centre[0], false, false, 6e-3, true},
              {"y", "m", centre[1], -1, 1, centre[1], false, false, 6e-3, true},
              {"z", "m", centre[2], -1, 1, centre[2], false, false, 6e-3, true},
