@@ -30,7 +30,7 @@ Positions prolonged(const HexMesh& mesh, const std::vector<Support>& supports, c
 }
 
 RefinedMesh refined(const HexMesh& mesh, const std::vector<Support>& supports) {
-  RefinedMesh r{{mesh.nodes, {}}, supports};
+  RefinedMesh r{{mesh.nodes, {}}, supports, {}};
   std::map<std::vector<int>, int> between;  // node in the middle of these old ones
   for (const auto& e : mesh.elements) {
     // Node (i, j, k) of 3 x 3 x 3: the mean of the corners on its edge, face or volume.
@@ -68,6 +68,7 @@ RefinedMesh refined(const HexMesh& mesh, const std::vector<Support>& supports) {
       }
       r.mesh.elements.push_back(child);
     }
+    r.grids.push_back(grid);
   }
   return r;
 }

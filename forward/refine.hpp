@@ -8,6 +8,8 @@ namespace genio {
 struct RefinedMesh {
   HexMesh mesh;                   ///< the first nodes are the old ones
   std::vector<Support> supports;  ///< a new node has the one that all nodes it lies between share
+  /// Of each old element its 3 x 3 x 3 nodes, i + 3 j + 9 k.
+  std::vector<std::array<int, 27>> grids;
 };
 
 /// The support of a node that lies between others: between the jaw and another support it goes with

@@ -1,47 +1,24 @@
 #include "forward/refined_model.hpp"
 
-#include <array>
 #include <map>
 #include <set>
 
-#include "forward/hex8.hpp"
 #include "forward/refine.hpp"
 
 namespace genio {
 namespace {
 
-/// Of one element split in eight, place (i, j, k) of its 3 x 3 x 3 nodes.
-using Place = std::array<int, 3>;
-
-int node_at(const HexMesh& fine, size_t element, const Place& place) {
-  int child = 0;
-  std::array<double, 3> corner;
-  for (size_t i = 0; i < 3; ++i) {
-    child |= (place[i] == 2) << i;
-    corner[i] = place[i] == 0 ? -1 : 1;
-  }
-  const auto& nodes = fine.elements[8 * element + size_t(child)];
-  for (size_t c = 0; c < 8; ++c)
-    if (hex8::corner[c][0] == corner[0] && hex8::corner[c][1] == corner[1] &&
-        hex8::corner[c][2] == corner[2])
-      return nodes[c];
-  return -1;
-}
-
 /// Node of the finer mesh in the middle of two others. By the elements: the middle of a warped face
 /// lies on neither of its diagonals.
 class Middles {
  public:
-  Middles(const HexMesh& old, const HexMesh& fine) {
-    std::vector<Place> places;
-    for (int n = 0; n < 27; ++n) places.push_back({n % 3, n / 3 % 3, n / 9});
-    for (size_t e = 0; e < old.elements.size(); ++e)
-      for (const Place& a : places)
-        for (const Place& b : places) {
-          const Place sum{a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-          if (a == b || sum[0] % 2 || sum[1] % 2 || sum[2] % 2) continue;
-          at_[{node_at(fine, e, a), node_at(fine, e, b)}] =
-              node_at(fine, e, {sum[0] / 2, sum[1] / 2, sum[2] / 2});
+  explicit Middles(const RefinedMesh& fine) {
+    for (const auto& grid : fine.grids)
+      for (int a = 0; a < 27; ++a)
+        for (int b = 0; b < 27; ++b) {
+          const int i = a % 3 + b % 3, j = a / 3 % 3 + b / 3 % 3, k = a / 9 + b / 9;
+          if (a == b || i % 2 || j % 2 || k % 2) continue;
+          at_[{grid[size_t(a)], grid[size_t(b)]}] = grid[size_t(i / 2 + 3 * (j / 2) + 9 * (k / 2))];
         }
   }
   int operator()(int a, int b) const {
@@ -105,7 +82,7 @@ std::vector<Fibre> denser(const std::vector<Fibre>& fibres, const Middles& middl
 ModelDescription refined(const ModelDescription& description) {
   ModelDescription d = description;
   const RefinedMesh fine = refined(description.mesh, description.supports);
-  const Middles middle(description.mesh, fine.mesh);
+  const Middles middle(fine);
   d.mesh = fine.mesh, d.supports = fine.supports;
   for (Muscle& muscle : d.muscles) {
     muscle.fibres = denser(muscle.fibres, middle);

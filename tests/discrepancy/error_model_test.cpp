@@ -5,29 +5,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "discrepancy/influence.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {
 namespace {
 
-class ErrorModel : public test::PosedTongue {
- protected:
-  void look_at(const ModelDescription& truth) {
-    observations = observed(truth, true);
-    study = std::make_unique<Study>(tongue, observations, fitted_conditions(observations));
-    f = fit(*study, {}, nullptr);
-    ASSERT_TRUE(f.converged) << f.message;
-    influences = influences_of(*study, f);
-  }
-  Observations observations;
-  std::unique_ptr<Study> study;
-  JointFit f;
-  std::vector<Matrix> influences;
-};
+class ErrorModel : public test::FittedTongue {};
 
 TEST_F(ErrorModel, TurnedFibresStillBalance) {
-  look_at(tongue);
+  ASSERT_NO_FATAL_FAILURE(fit_to(tongue, tongue));
   const FittedCondition& c = f.conditions[0];
   Matrix sum = Matrix::Zero(3, c.x.size());
   for (Eigen::Index i = 0; i < c.x.size(); ++i) sum(i % 3, i) = 1;
@@ -61,7 +47,7 @@ TEST(FibreCovariance, HasTheAngleOfTheDoubtOnBothSidesAndMostOfItAlike) {
 }
 
 TEST_F(ErrorModel, MusclesThatDoMoreForTheirForceAreForgiven) {
-  look_at(tongue);
+  ASSERT_NO_FATAL_FAILURE(fit_to(tongue, tongue));
   ModelDoubt doubt;
   doubt.efficacy_sd = 0.2;
   const Matrix c = efficacy_covariance(*study, f, influences, doubt);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "discrepancy/discover.hpp"
+#include "discrepancy/influence.hpp"
 #include "forward/hypothesis.hpp"
 #include "tests/forward/small_model.hpp"
 
@@ -42,6 +43,22 @@ class PosedTongue : public testing::Test {
   const std::vector<Posture> postures = {
       {{"GGP", 3}, {"TRANS", 2}}, {{"STY", 2}, {"SL", 1}}, {{"HG", 3}, {"GGA", 1}}};
   const ModelDescription tongue = read_description(generic_model());
+};
+
+/// A description fitted to what was seen of a truth.
+class FittedTongue : public PosedTongue {
+ protected:
+  void fit_to(const ModelDescription& truth, const ModelDescription& description) {
+    observations = observed(truth, true);
+    study = std::make_unique<Study>(description, observations, fitted_conditions(observations));
+    f = fit(*study, {}, nullptr);
+    ASSERT_TRUE(f.converged) << f.message;
+    influences = influences_of(*study, f);
+  }
+  Observations observations;
+  std::unique_ptr<Study> study;
+  JointFit f;
+  std::vector<Matrix> influences;
 };
 
 }  // namespace genio::test

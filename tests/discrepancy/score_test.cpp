@@ -5,35 +5,23 @@
 #include <cmath>
 
 #include "discrepancy/error_model.hpp"
-#include "discrepancy/influence.hpp"
 #include "discrepancy/response.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {
 namespace {
 
-class Scores : public test::PosedTongue {
+class Scores : public test::FittedTongue {
  protected:
   void look_at(const ModelDescription& truth) {
-    observations = observed(truth, true);
-    study = std::make_unique<Study>(with_mobile_supports(tongue), observations,
-                                    fitted_conditions(observations));
-    f = fit(*study, {}, nullptr);
-    ASSERT_TRUE(f.converged) << f.message;
-    influences.clear();
-    for (size_t k = 0; k < study->size(); ++k) influences.push_back(influence(*study, f, k));
+    ASSERT_NO_FATAL_FAILURE(fit_to(truth, with_mobile_supports(tongue)));
     errors.matrix = residual_covariance(*study, f, influences, {}, {});
     errors.covariance.compute(errors.matrix);
     f = fit(*study, {}, &errors, {&f.conditions});
     ASSERT_TRUE(f.converged) << f.message;
-    influences.clear();
-    for (size_t k = 0; k < study->size(); ++k) influences.push_back(influence(*study, f, k));
+    influences = influences_of(*study, f);
     all = candidates(tongue, observations);
   }
-  Observations observations;
-  std::unique_ptr<Study> study;
-  JointFit f;
-  std::vector<Matrix> influences;
   Errors errors;
   std::vector<Candidate> all;
 };
