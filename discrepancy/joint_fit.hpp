@@ -16,7 +16,7 @@ constexpr double surface_smoothing = 1.5e-3;
 /// Parameters of the model that all conditions share, and what is believed of them; a head pose
 /// where the data themselves are laid wrongly.
 struct SharedPrior {
-  std::map<std::string, Normal> parameters;
+  std::map<std::string, Belief> parameters;
   std::optional<Prior::HeadPose> head_pose;
 };
 

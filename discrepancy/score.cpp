@@ -36,8 +36,24 @@ FreeNumber pose_number(const char* name, const char* unit, double typical) {
   return n;
 }
 
-/// The parts of the strengths that may be off their absent value in either direction.
-bool one_sided(const FreeNumber& n) { return n.info.absent <= n.info.lower; }
+/// In which direction it may be off its absent value; 0: in either.
+int side_of(const FreeNumber& n) {
+  if (n.info.absent <= n.info.lower) return 1;
+  return n.info.absent >= n.info.upper ? -1 : 0;
+}
+
+/// Least point of slope . s + 1/2 s . h s among those on the strengths' sides: what would be on the
+/// other stays at zero while the rest is solved again.
+Vector step_on_its_side(const Matrix& h, const Vector& slope,
+                        const std::vector<FreeNumber>& strengths) {
+  Vector step = -h.llt().solve(slope);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < step.size(); ++i)
+    if (side_of(strengths[size_t(i)]) * step[i] >= 0) free.push_back(i);
+  step.setZero();
+  if (!free.empty()) step(free) = -Matrix(h(free, free)).llt().solve(slope(free));
+  return step;
+}
 
 /// dF / d strength as nodal forces [N per unit].
 Forces forces_by(const Hypothesis& h, const FreeNumber& strength, const Model& model,
@@ -159,9 +175,7 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     if (s.visible) {
       const Matrix posterior = information + Matrix::Identity(count, count);
       const Vector slope = g.transpose() * projection.residuals();
-      Vector step = -posterior.llt().solve(slope);
-      for (Eigen::Index i = 0; i < count; ++i)
-        if (one_sided(strengths[size_t(i)])) step[i] = std::max(0.0, step[i]);
+      const Vector step = step_on_its_side(posterior, slope, strengths);
       s.log_evidence = -slope.dot(step) - 0.5 * step.dot(posterior * step) -
                        0.5 * std::log(posterior.determinant());
       const Eigen::JacobiSVD<Matrix> svd(information, Eigen::ComputeThinU);
@@ -170,8 +184,9 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
       for (Eigen::Index i = 0; i < count; ++i)
         if (const double v = svd.singularValues()[i]; v > invisible * invisible)
           chi2 += std::pow(svd.matrixU().col(i).dot(slope), 2) / v, ++dof;
-      if (count == 1 && one_sided(strengths[0])) {
-        const double z = -slope[0] / std::sqrt(information(0, 0));
+      const int side = count == 1 ? side_of(strengths[0]) : 0;
+      if (side != 0) {
+        const double z = -side * slope[0] / std::sqrt(information(0, 0));
         s.statistic = std::pow(std::max(0.0, z), 2);
         s.p = normal_tail(z);
       } else {
@@ -183,7 +198,7 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
       s.sd = posterior.inverse().diagonal().cwiseSqrt().cwiseProduct(typical);
       s.direction = g * (step.isZero(0) ? Vector(Vector::Ones(count)) : step);
       s.direction.normalize();
-      const double sides = count == 1 && one_sided(strengths[0]) ? 1 : 2;
+      const double sides = side != 0 ? 1 : 2;
       const double z = normal_quantile(level / sides / double(candidates.size())) + nine_in_ten;
       s.detectable = z / std::sqrt(information.trace() / double(count));
     }

@@ -20,7 +20,8 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
     // A straight line may point far beyond where it holds.
     double v = n.info.absent + std::clamp(s.estimate[Eigen::Index(i)] - n.info.absent,
                                           -farthest * n.info.typical, farthest * n.info.typical);
-    if (std::abs(v - n.info.absent) < least) v = n.info.absent + least;
+    if (std::abs(v - n.info.absent) < least)
+      v = n.info.absent + (n.info.absent < n.info.upper ? least : -least);
     result[c.effect + "." + n.name] = std::clamp(v, n.info.lower, n.info.upper);
   }
   return result;
@@ -49,7 +50,8 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
     if (!is_switch) {
       for (const auto* numbers : {&h.strengths, &h.details})
         for (const FreeNumber& n : *numbers)
-          a.shared.parameters[h.effect + "." + n.name] = {n.info.absent, n.info.typical};
+          a.shared.parameters[h.effect + "." + n.name] = {
+              {n.info.absent, n.info.typical}, n.info.lower, n.info.upper};
     }
   } else {
     a.shared.head_pose = Prior::HeadPose{1e-3, 0.02};

@@ -12,7 +12,7 @@ namespace genio {
 struct FreeNumber {
   std::string name;               ///< "angle", "GGP"
   std::vector<std::string> keys;  ///< of the effect's table, all of which take its value
-  ParameterInfo info;             ///< of the first
+  ParameterInfo info;             ///< of the first; bounds: where it is believed to be
 };
 
 /// "stiff_region (anterior)"; without a place the effect's name.

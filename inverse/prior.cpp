@@ -83,15 +83,17 @@ std::vector<Command> unknowns(const Model& model, const Prior& prior, bool bilat
     need_positive(belief.sd, name.c_str());
     const std::vector<int> which = parameters_named(model, name);
     const auto& info = model.parameters[size_t(which.front())].info;
-    if (!(belief.mean >= info.lower && belief.mean <= info.upper))
+    const double lower = std::max(info.lower, belief.lower);
+    const double upper = std::min(info.upper, belief.upper);
+    if (!(belief.mean >= lower && belief.mean <= upper))
       throw InputError(fmt::format("parameter {}: mean {} {}; expected {} to {}", name, belief.mean,
-                                   info.unit, info.lower, info.upper));
+                                   info.unit, lower, upper));
     // Bounds may be far beyond what is believed; the unit is what may be reached.
-    const double reach = std::min(std::max(std::abs(info.lower), std::abs(info.upper)),
+    const double reach = std::min(std::max(std::abs(lower), std::abs(upper)),
                                   std::abs(belief.mean) + parameter_range * belief.sd);
     result.push_back({name, reach, which, std::vector<double>(which.size(), 1.0),
-                      Command::Kind::parameter, info.unit, std::max(-1.0, info.lower / reach),
-                      std::min(1.0, info.upper / reach)});
+                      Command::Kind::parameter, info.unit, std::max(-1.0, lower / reach),
+                      std::min(1.0, upper / reach)});
   }
   if (prior.head_pose) {
     const auto& pose = *prior.head_pose;
@@ -133,7 +135,7 @@ PriorTerms prior_terms(const Prior& prior, const std::vector<Command>& unknowns)
           rows.add(Vector::Unit(n, i) - Vector::Unit(n, j), 0, *prior.symmetry_sd);
         }
     } else if (c.kind == Command::Kind::parameter) {
-      const Normal& belief = prior.parameters.at(c.name);
+      const Belief& belief = prior.parameters.at(c.name);
       rows.add(i, belief.mean / c.scale, belief.sd / c.scale);
     } else {
       rows.add(i, 0, 1 / pose_range);

@@ -1,6 +1,7 @@
 #pragma once
 // What is believed of the unknowns before the shape is seen.
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +16,12 @@ struct Normal {
   double mean = 0, sd = 1;
 };
 
+/// Of a parameter, cut off at bounds of its own within the parameter's.
+struct Belief : Normal {
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+};
+
 /// Beliefs in the terms people have them in; all of them Gaussian, within the muscles' maxima.
 /// A muscle is named with or without its side; "GGP" speaks of both.
 struct Prior {
@@ -24,7 +31,7 @@ struct Prior {
   std::optional<Normal> cocontraction;  ///< of the mean over all activations
   std::map<std::string, double> fixed;  ///< commands that are known: force [N]
   /// Parameters of effects that are estimated along: "jaw_opening.angle", in their own unit.
-  std::map<std::string, Normal> parameters;
+  std::map<std::string, Belief> parameters;
   /// Where head and sensors may have moved against each other, about the target's middle.
   struct HeadPose {
     double shift_sd = 0;  ///< along x and z [m]

@@ -76,7 +76,7 @@ Prior read_prior(const std::string& path) {
       prior.fixed[std::string(name.str())] = file.number(force, std::string(name.str()));
   if (root.get("parameter"))
     for (const auto& [name, belief] : file.table(root, "parameter"))
-      prior.parameters[std::string(name.str())] = normal(file, belief, std::string(name.str()));
+      prior.parameters[std::string(name.str())] = {normal(file, belief, std::string(name.str()))};
   if (root.get("head_pose")) {
     const toml::table& pose = file.table(root, "head_pose");
     file.only(pose, {"shift_sd_mm", "turn_sd_deg"});

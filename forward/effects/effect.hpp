@@ -28,6 +28,8 @@ struct ParameterInfo {
   /// Says where or how large, and counts only where some strength of its effect is off its absent
   /// value; `typical` is then how uncertain it is.
   bool detail = false;
+  /// +1, -1: what it stands for is only ever above or below `absent`, though the bounds allow more.
+  int side = 0;
 };
 
 /// One way in which an effect may show: numbers let off their absent values at once.

@@ -23,6 +23,7 @@ Gravity::Gravity(const NodeMatrix& mass, const Vec3& acceleration, double pitch)
   for (size_t i = 0; i < 3; ++i)
     info_[i] = {axis[i], "m/s^2",   acceleration[Eigen::Index(i)], -20, 20, 0, true,
                 false,   typical[i]};
+  info_[2].side = -1;  // an upright head
   info_[3] = {"pitch", "deg", pitch, -180, 180, 0};
 }
 

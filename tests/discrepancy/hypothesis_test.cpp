@@ -88,5 +88,17 @@ TEST_F(Hypotheses, ThereIsNoneForAnEffectThatTheModelHas) {
   EXPECT_TRUE(weak.contains("HG_R"));  // other muscles may be weak too
 }
 
+TEST_F(Hypotheses, GravityPullsNoUprightHeadUp) {
+  for (const Hypothesis& h : all)
+    if (h.effect == "gravity") {
+      EXPECT_EQ(h.strengths.at(2).info.upper, 0);
+      EXPECT_LT(h.strengths.at(2).info.lower, -9.81);
+      EXPECT_GT(h.strengths.at(0).info.upper, 9.81);  // on the back
+    }
+  ModelDescription d = bare;
+  d.effects["gravity"] = {{"z", 9.81}};  // a user may
+  EXPECT_NO_THROW(build_model(d, "falls upwards"));
+}
+
 }  // namespace
 }  // namespace genio

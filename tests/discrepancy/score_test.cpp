@@ -74,6 +74,24 @@ TEST_F(Scores, NothingHiddenScoresLowAndAHiddenEffectHighest) {
   EXPECT_LT(scores.front().p, 1e-6);
 }
 
+TEST_F(Scores, ATongueThatIsPulledUpHasNoGravityDownwards) {
+  ModelDescription truth = tongue;
+  truth.effects["gravity"] = {{"x", 0}, {"y", 0}, {"z", 12}};
+  look_at(truth);
+  const Projection projection(f, errors.covariance);
+  const auto of_gravity = [&](const std::vector<Score>& scores) {
+    return *std::find_if(scores.begin(), scores.end(),
+                         [&](const Score& s) { return all[s.candidate].effect == "gravity"; });
+  };
+  const Score downwards = of_gravity(score(all, *study, f, influences, projection));
+  EXPECT_EQ(downwards.estimate[2], 0);
+  for (Candidate& c : all)
+    if (c.effect == "gravity") c.strengths[2].info.upper = 20;
+  const Score either = of_gravity(score(all, *study, f, influences, projection));
+  EXPECT_GT(either.estimate[2], 5);
+  EXPECT_GT(either.log_evidence, downwards.log_evidence + 10);
+}
+
 TEST_F(Scores, NoFitStartsFromConditionsThatAreMissing) {
   look_at(tongue);
   f.conditions.pop_back();

@@ -55,6 +55,17 @@ TEST_F(PriorTest, TermsAreTheirOwnDerivatives) {
               0, 1e-7 * (t.hessian() * d).norm());
 }
 
+TEST_F(PriorTest, ABeliefMayBeCutOffWithinTheBoundsOfItsParameter) {
+  Prior prior;
+  prior.parameters["elasticity.a10"] = {{1000, 200}, 900, 1e9};
+  const Command c = unknowns(m, prior, false).back();
+  EXPECT_NEAR(c.lower * c.scale, 900, 1e-9);
+  const auto& info = m.parameters[size_t(c.parameters.front())].info;
+  EXPECT_LE(c.upper * c.scale, info.upper * (1 + 1e-12));
+  prior.parameters["elasticity.a10"] = {{1000, 200}, 1100};
+  EXPECT_THROW(unknowns(m, prior, false), InputError);
+}
+
 TEST_F(PriorTest, DensityKnowsWhatIsFixed) {
   Prior prior;
   prior.symmetry_sd = 1e-3;
