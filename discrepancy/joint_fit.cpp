@@ -211,7 +211,7 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
   }
   const auto open = open_unknowns(f.lower, f.upper);
   if (open.empty()) {
-    f.log_evidence = -f.value;
+    f.log_evidence = shared.log_weight - f.value;
     return f;
   }
   const Matrix j = problem.whitened(f.jacobian())(Eigen::all, open);
@@ -225,8 +225,8 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
   const PriorMass mass = prior_mass(f, open);
   const Vector spikes = spikes_at_rest(study, f, open, mass);
   const BoxIntegral all = integral(density, spikes);
-  f.log_evidence =
-      -f.value + all.log - mass.log_all - double((spikes.array() > 0).count()) * std::numbers::ln2;
+  f.log_evidence = shared.log_weight - f.value + all.log - mass.log_all -
+                   double((spikes.array() > 0).count()) * std::numbers::ln2;
   summarise_shared(f, study.model(0), all, open);
   return f;
 }

@@ -18,6 +18,7 @@ constexpr double surface_smoothing = 1.5e-3;
 struct SharedPrior {
   std::map<std::string, Belief> parameters;
   std::optional<Prior::HeadPose> head_pose;
+  double log_weight = 0;  ///< of these beliefs, among those there are; counts as evidence
 };
 
 struct FittedCondition {

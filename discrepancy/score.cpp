@@ -16,6 +16,7 @@ namespace {
 
 constexpr double invisible = 1e-3;    // whitened change at typical strength
 constexpr double nine_in_ten = 1.28;  // standard deviations
+constexpr double largest_scale = 64;
 
 double normal_tail(double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); }
 
@@ -53,6 +54,28 @@ Vector step_on_its_side(const Matrix& h, const Vector& slope,
   step.setZero();
   if (!free.empty()) step(free) = -Matrix(h(free, free)).llt().solve(slope(free));
   return step;
+}
+
+struct Promise {
+  double scale, gain;  ///< of typical strengths; log evidence
+  Vector step;         ///< of the strengths, in typical ones
+  Matrix posterior;    ///< inverse of its covariance
+};
+
+/// At the scale of beliefs that gains most.
+Promise promised(const Matrix& information, const Vector& slope,
+                 const std::vector<FreeNumber>& strengths) {
+  Promise best{0, 0, {}, {}};
+  const auto n = slope.size();
+  for (double scale = 1; scale <= largest_scale; scale *= 2) {
+    const Matrix h = information + Matrix::Identity(n, n) / (scale * scale);
+    const Vector step = step_on_its_side(h, slope, strengths);
+    const double gain = -slope.dot(step) - 0.5 * step.dot(h * step) -
+                        0.5 * std::log(h.determinant()) - double(n) * std::log(scale) +
+                        log_weight_of_scale(scale);
+    if (best.scale == 0 || gain > best.gain) best = {scale, gain, step, h};
+  }
+  return best;
 }
 
 /// dF / d strength as nodal forces [N per unit].
@@ -95,6 +118,8 @@ std::vector<Candidate> candidates(const ModelDescription& description,
                        pose_number("turn", "rad", 0.02)}});
   return result;
 }
+
+double log_weight_of_scale(double scale) { return -std::log(scale); }
 
 Projection::Projection(const JointFit& f, const Eigen::LLT<Matrix>& covariance)
     : covariance_(covariance) {
@@ -173,11 +198,9 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     const Matrix information = g.transpose() * g;
     s.visible = information.trace() > invisible * invisible;
     if (s.visible) {
-      const Matrix posterior = information + Matrix::Identity(count, count);
       const Vector slope = g.transpose() * projection.residuals();
-      const Vector step = step_on_its_side(posterior, slope, strengths);
-      s.log_evidence = -slope.dot(step) - 0.5 * step.dot(posterior * step) -
-                       0.5 * std::log(posterior.determinant());
+      const auto [scale, gain, step, posterior] = promised(information, slope, strengths);
+      s.scale = scale, s.log_evidence = gain;
       const Eigen::JacobiSVD<Matrix> svd(information, Eigen::ComputeThinU);
       double chi2 = 0;
       int dof = 0;

@@ -49,12 +49,18 @@ struct Score {
   bool visible = false;     ///< in a way that the unknowns cannot make up for
   double statistic = 0;     ///< chi-square of Rao's test; one-sided where the sign is known
   double p = 1;             ///< its tail, for this candidate alone
-  double log_evidence = 0;  ///< gain over nothing, to second order, typical strengths believed
+  double log_evidence = 0;  ///< gain over nothing, to second order
+  double scale = 1;         ///< of the typical strengths that gains most, see log_weight_of_scale()
   Vector estimate, sd;      ///< of the strengths, by one step
   double detectable = 0;    ///< times its typical strength: seen nine times in ten
   Matrix signature;         ///< see signature()
   Vector direction;         ///< its whitened, projected signature, of unit length
 };
+
+/// Log weight of the belief that a candidate is about `scale` >= 1 times as strong as it typically
+/// is. Taken at the scale that suits, Gaussians weighted so have the tails of a Cauchy
+/// distribution: a strong effect is surprising, not impossible.
+double log_weight_of_scale(double scale);
 
 /// Scores of all candidates, the most likely first. `level`: of the test for all of them together,
 /// for `detectable`.

@@ -10,6 +10,8 @@ namespace genio {
 namespace {
 
 constexpr double far_start = 2, near_start = 0.1;  // typical strengths
+constexpr double misjudged = 1.5;                  // scale of strengths, by this factor
+constexpr int most_rescales = 3;
 
 /// Starting values of a candidate's numbers, in their own unit.
 std::map<std::string, double> starts(const Candidate& c, const Score& s, double farthest) {
@@ -27,6 +29,53 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
   return result;
 }
 
+/// What a candidate's numbers are believed to be, strong ones by `scale`, with those of `base`.
+SharedPrior believed(SharedPrior base, const Candidate& c, double scale) {
+  if (!c.hypothesis) {
+    base.head_pose = Prior::HeadPose{1e-3 * scale, 0.02 * scale};
+  } else {
+    const auto add = [&](const std::vector<FreeNumber>& numbers, double by) {
+      for (const FreeNumber& n : numbers)
+        base.parameters[c.effect + "." + n.name] = {
+            {n.info.absent, by * n.info.typical}, n.info.lower, n.info.upper};
+    };
+    add(c.hypothesis->strengths, scale), add(c.hypothesis->details, 1);
+  }
+  base.log_weight += log_weight_of_scale(scale);
+  return base;
+}
+
+/// How many times its typical strength a candidate has, at least 1.
+double scale_of(const Candidate& c, const JointFit& fit) {
+  double scale = 1;
+  for (const FreeNumber& n : c.strengths)
+    for (const SharedEstimate& e : fit.shared)
+      if (e.name == c.effect + "." + n.name)
+        scale = std::max(scale, std::abs(e.value - n.info.absent) / n.info.typical);
+  return scale;
+}
+
+std::map<std::string, double> values_of(const JointFit& fit) {
+  std::map<std::string, double> result;
+  for (const SharedEstimate& e : fit.shared) result[e.name] = e.value;
+  return result;
+}
+
+/// Fits again while the strengths turn out to be of another scale than was believed.
+void rescale(Account& a, const SharedPrior& base, const Candidate& c, double scale,
+             const Errors& errors, double hopeless) {
+  for (int tries = 0; tries < most_rescales && a.fit.converged; ++tries) {
+    const double now = scale_of(c, a.fit);
+    if (now < misjudged * scale && scale < misjudged * now) break;
+    scale = now;
+    a.shared = believed(base, c, scale);
+    FitOptions options{&a.fit.conditions, values_of(a.fit)};
+    options.hopeless = hopeless;
+    JointFit next = fit(*a.study, a.shared, &errors, options);
+    a.fit = std::move(next);
+  }
+}
+
 }  // namespace
 
 std::vector<double> log_prior(const std::vector<Candidate>& candidates) {
@@ -41,25 +90,19 @@ std::vector<double> log_prior(const std::vector<Candidate>& candidates) {
 Account refit(const Account& base, const Candidate& candidate, const Score& score,
               const Evidence& evidence, double hopeless) {
   Account a;
-  a.shared = base.shared;
   a.description = base.description;
-  if (candidate.hypothesis) {
-    const Hypothesis& h = *candidate.hypothesis;
-    const bool is_switch = h.is_switch();
-    a.description = h.added_to(std::move(a.description), is_switch);
-    if (!is_switch) {
-      for (const auto* numbers : {&h.strengths, &h.details})
-        for (const FreeNumber& n : *numbers)
-          a.shared.parameters[h.effect + "." + n.name] = {
-              {n.info.absent, n.info.typical}, n.info.lower, n.info.upper};
-    }
-  } else {
-    a.shared.head_pose = Prior::HeadPose{1e-3, 0.02};
-  }
+  a.shared = base.shared;
+  const bool is_switch = candidate.hypothesis && candidate.hypothesis->is_switch();
+  if (candidate.hypothesis)
+    a.description = candidate.hypothesis->added_to(std::move(a.description), is_switch);
+  if (!is_switch) a.shared = believed(base.shared, candidate, score.scale);
   try {
     a.study = std::make_shared<Study>(a.description, evidence.observations,
                                       fitted_conditions(evidence.observations));
-    for (double farthest : {far_start, near_start}) {
+    std::vector<double> reaches{far_start, near_start};
+    if (score.scale > 1) reaches.insert(reaches.begin(), far_start * score.scale);
+    for (double farthest : reaches) {
+
       FitOptions options;
       options.shared_start = starts(candidate, score, farthest);
       // The commands start where, to first order, they answer to it.
@@ -75,6 +118,7 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
       a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
       if (a.fit.u.size() > 0) break;  // else no equilibrium that far
     }
+    if (!is_switch) rescale(a, base.shared, candidate, score.scale, evidence.fitted, hopeless);
     a.message = a.fit.message;
   } catch (const InputError& e) {
     a.message = e.what();
