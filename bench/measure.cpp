@@ -15,12 +15,16 @@ namespace {
 /// Where rays from inside leave the tongue's own surface.
 class Rays {
  public:
-  Rays(const Model& model, const Positions& x) : x_(x) {
+  Rays(const Model& model, const Positions& x) {
     half_ = std::all_of(model.mesh.nodes.begin(), model.mesh.nodes.end(),
                         [](const Vec3& n) { return n[1] > -1e-6; });
+    // Four triangles about the middle: by a diagonal a warped face would be another one in the
+    // mirror.
     for (const Quad& q : free_faces(model.mesh, model.supports)) {
-      triangles_.push_back({q[0], q[1], q[2]});
-      triangles_.push_back({q[0], q[2], q[3]});
+      std::array<Vec3, 4> corner;
+      for (size_t k = 0; k < 4; ++k) corner[k] = node_position(x, q[k]);
+      const Vec3 middle = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
+      for (size_t k = 0; k < 4; ++k) triangles_.push_back({middle, corner[k], corner[(k + 1) % 4]});
     }
   }
   /// False where the ray meets nothing.
@@ -28,9 +32,8 @@ class Rays {
     const double side = half_ && along[1] < 0 ? -1 : 1;
     along[1] *= side;
     double farthest = -1;
-    for (const auto& t : triangles_) {
-      const Vec3 a = node_position(x_, t[0]);
-      const Vec3 u = node_position(x_, t[1]) - a, v = node_position(x_, t[2]) - a;
+    for (const auto& [a, b, c] : triangles_) {
+      const Vec3 u = b - a, v = c - a;
       const Vec3 n = along.cross(v);
       const double det = u.dot(n);
       if (std::abs(det) < 1e-16) continue;
@@ -46,9 +49,8 @@ class Rays {
   }
 
  private:
-  const Positions& x_;
   bool half_ = false;
-  std::vector<std::array<int, 3>> triangles_;
+  std::vector<std::array<Vec3, 3>> triangles_;
 };
 
 constexpr double depth = 0.015;  // of the rays' origin below the top [m]

@@ -1,10 +1,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "forward/closest_point.hpp"
 #include "inverse/moved_target.hpp"
 #include "inverse/target.hpp"
 
@@ -94,29 +92,10 @@ void compare_flesh(const FleshPoint& point, const Positions& x, const MovedTarge
   rows.point(off.norm(), on);
 }
 
-using Triangles = std::vector<std::array<int, 3>>;
-
-/// Where a point comes to lie on a triangle.
-struct Foot {
-  std::array<double, 3> weight;
-  Vec3 place;
-  double square;  ///< of the distance
-};
-
-Foot foot_on(const Vec3& q, const std::array<int, 3>& n, const Positions& x) {
-  const Vec3 a = node_position(x, n[0]), b = node_position(x, n[1]), c = node_position(x, n[2]);
-  const auto w = closest_on_triangle(q, a, b, c);
-  const Vec3 f = w[0] * a + w[1] * b + w[2] * c;
-  return {w, f, (q - f).squaredNorm()};
-}
-
-/// The signed distance of q, whose nearest triangle and foot are given, and its derivative with
-/// respect to q.
-double signed_distance(const Vec3& q, const std::array<int, 3>& n, const Foot& foot,
-                       const Positions& x, Vec3& slope) {
-  const Vec3 face = (node_position(x, n[1]) - node_position(x, n[0]))
-                        .cross(node_position(x, n[2]) - node_position(x, n[0]))
-                        .normalized();
+/// The signed distance of q from a facet, and its derivative with respect to q.
+double signed_distance(const Vec3& q, const std::array<Vec3, 3>& corners, const Foot& foot,
+                       Vec3& slope) {
+  const Vec3 face = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
   // Signed along the line to the foot point, which is the face's normal inside a face.
   const double distance = std::sqrt(foot.square);
   const Vec3 normal = distance > 1e-9 ? Vec3((q - foot.place) / distance) : face;
@@ -125,27 +104,16 @@ double signed_distance(const Vec3& q, const std::array<int, 3>& n, const Foot& f
   return sign * distance;
 }
 
-/// `about`: where the distance is taken, from the point; the mean counts.
-void compare_surface(const SurfacePoint& point, const Triangles& triangles,
-                     const std::vector<Vec3>& about, const Positions& x, const MovedTarget& moved,
-                     Builder& rows) {
-  // Few hundred faces against few hundred points: a tree over a moving surface would not pay.
+/// `about`: where the distance is taken, from the point; the mean counts. The gradient begins with
+/// the nodes of the first one's facet.
+void compare_surface(const SurfacePoint& point, const FacetSurface& surface,
+                     const std::vector<Vec3>& about, const MovedTarget& moved, Builder& rows) {
   const Vec3 q = moved(point.position);
-  std::vector<double> square(triangles.size());
-  size_t nearest = 0;
-  Foot foot{{}, Vec3::Zero(), std::numeric_limits<double>::infinity()};
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    const Foot f = foot_on(q, triangles[t], x);
-    square[t] = f.square;
-    if (f.square < foot.square) foot = f, nearest = t;
-  }
+  const size_t nearest = surface.nearest(q);
+  const Foot foot = surface.foot(nearest, q);
   std::vector<size_t> near{nearest};
-  if (about.size() > 1) {
-    const double within = std::sqrt(foot.square) + 2.01 * about.front().norm();
-    near.clear();
-    for (size_t t = 0; t < triangles.size(); ++t)
-      if (square[t] <= within * within) near.push_back(t);
-  }
+  if (about.size() > 1)
+    near = surface.within(q, std::sqrt(foot.square) + 2.01 * about.front().norm());
   const double share = 1 / (point.sigma * double(about.size()));
   double r = 0;
   Vec3 slope = Vec3::Zero();
@@ -153,16 +121,17 @@ void compare_surface(const SurfacePoint& point, const Triangles& triangles,
   for (const Vec3& offset : about) {
     const Vec3 p = q + offset;
     size_t best = near.front();
-    Foot least = foot_on(p, triangles[best], x);
+    Foot least = surface.foot(best, p);
     for (size_t k = 1; k < near.size(); ++k)
-      if (const Foot f = foot_on(p, triangles[near[k]], x); f.square < least.square)
+      if (const Foot f = surface.foot(near[k], p); f.square < least.square)
         least = f, best = near[k];
     Vec3 direction;
-    r += share * signed_distance(p, triangles[best], least, x, direction);
+    r += share * signed_distance(p, surface.corners(best), least, direction);
     slope += share * direction;
-    for (size_t k = 0; k < 3; ++k) {
-      const int node = triangles[best][k];
-      const Vec3 g = -least.weight[k] * share * direction;
+    const auto shares = node_shares(least.weight);
+    for (size_t k = 0; k < 4; ++k) {
+      const int node = surface.nodes(best)[k];
+      const Vec3 g = -shares[k] * share * direction;
       const auto known = std::find_if(gradient.begin(), gradient.end(),
                                       [&](const auto& entry) { return entry.first == node; });
       if (known == gradient.end()) gradient.emplace_back(node, g);
@@ -195,15 +164,11 @@ Comparison::Comparison(const Model& model, Target target, double smoothing)
       rest_(model.rest),
       about_(icosahedron(smoothing)),
       middle_(target_.middle()) {
-  if (!target_.surface.empty())
-    for (const Quad& q : model.surface) {
-      triangles_.push_back({q[0], q[1], q[2]});
-      triangles_.push_back({q[0], q[2], q[3]});
-    }
+  if (!target_.surface.empty()) facets_ = facets(model.surface);
   if (!target_.curve.empty()) nodes_ = line_.nodes();
   for (const auto& f : target_.flesh)
     for (const auto& [node, share] : f.at) nodes_.push_back(node);
-  for (const auto& t : triangles_) nodes_.insert(nodes_.end(), t.begin(), t.end());
+  for (const Facet& f : facets_) nodes_.insert(nodes_.end(), f.begin(), f.end());
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
@@ -213,8 +178,8 @@ Residuals Comparison::operator()(const Positions& x, const HeadPose& pose) const
   Builder rows(moved, target_.outlier_dof);
   for (const auto& point : target_.curve) compare_curve(point, line_, x, moved, rows);
   for (const auto& point : target_.flesh) compare_flesh(point, x, moved, rows);
-  for (const auto& point : target_.surface)
-    compare_surface(point, triangles_, about_, x, moved, rows);
+  const FacetSurface surface(facets_, x);
+  for (const auto& point : target_.surface) compare_surface(point, surface, about_, moved, rows);
   return std::move(rows).result();
 }
 

@@ -67,14 +67,26 @@ Distance line_distance(const CurvePoint& point, const TongueLine& line, const Po
   return {c.distance, std::move(first), std::move(second), std::move(at)};
 }
 
-/// From a triangle: within it to its plane; past an edge or a corner to that, by
+/// From a distance over the corners of a facet to one over its nodes: its middle is their mean.
+Distance over_nodes(const Distance& d, const Facet& facet) {
+  Matrix corners = Matrix::Zero(12, 15);
+  corners.block<6, 6>(0, 0).setIdentity(), corners.block<3, 3>(9, 12).setIdentity();
+  for (int a = 0; a < 4; ++a) corners.block<3, 3>(6, 3 * a) = 0.25 * Mat3::Identity();
+  Distance result{
+      d.value, corners.transpose() * d.first, corners.transpose() * d.second * corners, {}};
+  for (int node : facet)
+    for (int i = 0; i < 3; ++i) result.at.push_back(3 * node + i);
+  result.at.insert(result.at.end(), d.at.end() - 3, d.at.end());
+  return result;
+}
+
+/// From a triangle, over its corners and the pose: within it to its plane; past an edge or a corner
+/// to that, by
 ///   min over w of |q - f(w)|^2 / 2, whose second derivative is that of the function less
 ///   f_iw f_ww^-1 f_wj.
-Distance triangle_distance(const SurfacePoint& point, const std::array<int, 3>& nodes,
-                           const Positions& x, const MovedTarget& moved) {
+Distance triangle_distance(const SurfacePoint& point, const std::array<Vec3, 3>& p,
+                           Eigen::Index size, const MovedTarget& moved) {
   const Vec3 q = moved(point.position);
-  const Vec3 p[3] = {node_position(x, nodes[0]), node_position(x, nodes[1]),
-                     node_position(x, nodes[2])};
   const auto w = closest_on_triangle(q, p[0], p[1], p[2]);
   const Vec3 foot = w[0] * p[0] + w[1] * p[1] + w[2] * p[2];
   const Vec3 area = (p[1] - p[0]).cross(p[2] - p[0]), face = area.normalized();
@@ -84,20 +96,17 @@ Distance triangle_distance(const SurfacePoint& point, const std::array<int, 3>& 
   // Motion of q against the foot, were it to keep its weights.
   Motion m = Motion::Zero();
   Distance d{sign * off, Vector::Zero(12), Matrix::Zero(12, 12), std::vector<int>(12)};
-  for (int l = 0; l < 3; ++l) {
-    m.block<3, 3>(0, 3 * l) = -w[size_t(l)] * Mat3::Identity();
-    for (int i = 0; i < 3; ++i) d.at[size_t(3 * l + i)] = 3 * nodes[size_t(l)] + i;
-  }
+  for (int l = 0; l < 3; ++l) m.block<3, 3>(0, 3 * l) = -w[size_t(l)] * Mat3::Identity();
   const Vec2 flat(q[0], q[2]), twice = moved.by_turn_twice(flat);
   const auto by_pose = moved.by_pose(flat);
   m.block<1, 3>(0, 9) = by_pose.row(0), m.block<1, 3>(2, 9) = by_pose.row(1);
-  for (int i = 0; i < 3; ++i) d.at[size_t(9 + i)] = int(x.size()) + i;
+  for (int i = 0; i < 3; ++i) d.at[size_t(9 + i)] = int(size) + i;
   const Vec3 turning(twice[0], 0, twice[1]);  // of q, second derivative
 
   if (w[0] > 0 && w[1] > 0 && w[2] > 0) {
     Mat3 g;  // gradients of the barycentric coordinates, columns
     for (int l = 0; l < 3; ++l)
-      g.col(l) = face.cross(Vec3(p[(l + 2) % 3] - p[(l + 1) % 3])) / area.norm();
+      g.col(l) = face.cross(Vec3(p[size_t((l + 2) % 3)] - p[size_t((l + 1) % 3)])) / area.norm();
     Motion across = Motion::Zero();  // row l: n . motion of corner l
     for (int l = 0; l < 3; ++l) across.block<1, 3>(l, 3 * l) = face.transpose();
     const Motion slide = g.transpose() * m;
@@ -114,7 +123,7 @@ Distance triangle_distance(const SurfacePoint& point, const std::array<int, 3>& 
   for (int l = 0; l < 3; ++l) {  // an edge has two corners with weight: slide from one to the other
     const int from = l, to = (l + 1) % 3;
     if (!(w[size_t(from)] > 0 && w[size_t(to)] > 0)) continue;
-    const Vec3 edge = p[to] - p[from];
+    const Vec3 edge = p[size_t(to)] - p[size_t(from)];
     Vector by_slide = -m.transpose() * edge;
     by_slide.segment<3>(3 * to) -= e, by_slide.segment<3>(3 * from) += e;
     square -= by_slide * by_slide.transpose() / edge.squaredNorm();
@@ -169,8 +178,10 @@ std::vector<Eigen::Triplet<double>> Comparison::curvature(const Positions& x, co
   }
   for (const auto& point : target_.surface) {
     const auto& corners = residuals.gradient[row++];
-    const Distance d =
-        triangle_distance(point, {corners[0].first, corners[1].first, corners[2].first}, x, moved);
+    const std::vector<Facet> facet{
+        {corners[0].first, corners[1].first, corners[2].first, corners[3].first}};
+    const Distance d = over_nodes(
+        triangle_distance(point, FacetSurface(facet, x).corners(0), x.size(), moved), facet[0]);
     add(bend(d, point.sigma, dof), d.at, entries);
   }
   return entries;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "inverse/facets.hpp"
 #include "inverse/head_pose.hpp"
 #include "inverse/tongue_line.hpp"
 
@@ -111,7 +112,7 @@ class Comparison {
   Target target_;
   TongueLine line_;
   Positions rest_;
-  std::vector<std::array<int, 3>> triangles_;  // of the surface
+  std::vector<Facet> facets_;  // of the surface
   std::vector<Vec3> about_;                    // where a surface point's distance is taken, from it
   std::vector<int> nodes_;
   Vec2 middle_;

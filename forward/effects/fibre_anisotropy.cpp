@@ -10,6 +10,7 @@ namespace {
 
 constexpr double toe = 0.1;
 constexpr double neighbourhood = 6e-3;  // [m]
+constexpr double on_septum = 1e-6;      // [m]
 
 auto fibre_law(double modulus) {
   return [=](double i4) {
@@ -22,14 +23,22 @@ auto fibre_law(double modulus) {
 }  // namespace
 
 Vec3 fibre_direction(const Muscle& muscle, const Positions& rest, const Vec3& point) {
-  Mat3 sum = Mat3::Zero();
-  double nearest = std::numeric_limits<double>::infinity();
-  const auto distance2 = [&](const FibreSegment& s) {
-    return (0.5 * (s.start.position(rest) + s.end.position(rest)) - point).squaredNorm();
+  const auto middle = [&](const FibreSegment& s) {
+    return Vec3(0.5 * (s.start.position(rest) + s.end.position(rest)));
   };
-  for (const auto& s : muscle.segments) nearest = std::min(nearest, distance2(s));
+  std::vector<const FibreSegment*> near, own;
   for (const auto& s : muscle.segments) {
-    const Vec3 t = span(s, rest).normalized();
+    near.push_back(&s);
+    const double y = middle(s)[1];
+    if (std::abs(y) < on_septum || y * point[1] > 0) own.push_back(&s);
+  }
+  if (!own.empty()) near = own;
+  const auto distance2 = [&](const FibreSegment* s) { return (middle(*s) - point).squaredNorm(); };
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto* s : near) nearest = std::min(nearest, distance2(s));
+  Mat3 sum = Mat3::Zero();
+  for (const auto* s : near) {
+    const Vec3 t = span(*s, rest).normalized();
     sum += std::exp((nearest - distance2(s)) / (neighbourhood * neighbourhood)) * t * t.transpose();
   }
   return Eigen::SelfAdjointEigenSolver<Mat3>(sum).eigenvectors().col(2);

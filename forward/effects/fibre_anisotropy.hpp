@@ -32,7 +32,9 @@ class FibreAnisotropy final : public Effect {
 };
 
 /// Mean direction of a muscle's fibres at rest about a point: the principal axis of its segments,
-/// nearer ones counting more.
+/// nearer ones counting more, those across the midsagittal plane y = 0 not at all: fibres meet in a
+/// septum there, and half a tongue has only its own. All count where a muscle has none on
+/// the point's side.
 Vec3 fibre_direction(const Muscle& muscle, const Positions& rest, const Vec3& point);
 
 }  // namespace genio

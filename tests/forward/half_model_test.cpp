@@ -41,7 +41,7 @@ TEST(HalfModel, TakesTheShapeOfTheWholeUnderEveryEffectThatIsAlikeOnBothSides) {
   const std::map<std::string, EffectTable> effects = {
       {"gravity", {{"z", -9.81}}},
       {"active_stiffening", {{"factor", 20}}},
-      {"fibre_anisotropy", {{"modulus", 4e3}}},
+      {"fibre_anisotropy", {{"modulus", 1e5}}},
       {"material_nonlinearity", {{"a20", 3e3}}},
       {"compressibility", {{"compliance", 3e-5}}},
       {"mucosa_layer", {{"a10", 8e3}}},
