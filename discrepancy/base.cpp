@@ -101,7 +101,7 @@ void move_base(Base& base, const Account& winner, const std::vector<Candidate>& 
   a.heldout_study = winner.heldout_study, a.heldout = winner.heldout;
   for (bool last : {false, true}) {
     Account next = a;
-    fit_heldout(next, a.heldout.conditions, evidence);
+    fit_heldout(next, &a.heldout.conditions, evidence);
     if (next.heldout.conditions.size() != a.heldout.conditions.size()) break;
     a.heldout_study = next.heldout_study, a.heldout = std::move(next.heldout);
     if (!last)
@@ -124,7 +124,7 @@ void settle_account(const Base& base, Account& account, const std::vector<Candid
   test_residuals(a, evidence.fitted);
   if (a.heldout_study) {
     evidence.heldout.corrections = a.refinement->corrections(*a.heldout_study, a.heldout);
-    fit_heldout(a, account.heldout.conditions, evidence);
+    fit_heldout(a, &account.heldout.conditions, evidence);
     if (a.heldout.conditions.size() != account.heldout.conditions.size()) return;
   }
   account = std::move(a);

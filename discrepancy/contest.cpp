@@ -20,12 +20,19 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Refits {
  public:
-  Refits(Base& base, Contest& contest, const DiscoverOptions& options)
+  Refits(Base& base, Contest& contest, const std::vector<Candidate>& found,
+         const DiscoverOptions& options)
       : base_(base),
         contest_(contest),
         options_(options),
-        all_(candidates(base.account.description, base.evidence.observations)),
-        prior_(log_prior(all_)) {}
+        all_(candidates(base.account.description, base.evidence.observations)) {
+    // Its strength is a shared unknown by now.
+    std::erase_if(all_, [&](const Candidate& c) {
+      return std::any_of(found.begin(), found.end(),
+                         [&](const Candidate& f) { return f.label() == c.label(); });
+    });
+    prior_ = log_prior(all_);
+  }
 
   /// Scores and prior odds of all candidates.
   void score(const std::vector<Matrix>& influences, const Projection& projection) {
@@ -130,11 +137,13 @@ class Refits {
     if (!base.heldout_study) return true;
     if (heldout_influences_.empty())
       heldout_influences_ = influences_of(*base.heldout_study, base.heldout);
-    fit_heldout(
-        account,
-        with(contest_.round.candidates[i].candidate, account.fit.shared, *base.heldout_study,
-             base.heldout, base_.evidence.heldout, heldout_influences_),
-        base_.evidence);
+    const Candidate& candidate = contest_.round.candidates[i].candidate;
+    const auto start = with(candidate, account.fit.shared, *base.heldout_study, base.heldout,
+                            base_.evidence.heldout, heldout_influences_);
+    fit_heldout(account, &start, base_.evidence);
+    if (candidate.hypothesis && candidate.hypothesis->is_switch() &&
+        !(account.heldout.converged && account.heldout.value < base.heldout.value))
+      fit_heldout(account, nullptr, base_.evidence);
     return account.heldout.conditions.size() == base.heldout.conditions.size();
   }
 
@@ -156,7 +165,7 @@ Contest contest(Base& base, const std::vector<Matrix>& influences, const Project
                 const std::vector<Candidate>& found, const DiscoverOptions& options) {
   Contest c;
   c.round.chi_square = base.account.chi_square, c.round.dof = base.account.dof;
-  Refits refits(base, c, options);
+  Refits refits(base, c, found, options);
   const auto started = std::chrono::steady_clock::now();
   refits.score(influences, projection);
   c.round.seconds_scoring =

@@ -102,7 +102,6 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
     std::vector<double> reaches{far_start, near_start};
     if (score.scale > 1) reaches.insert(reaches.begin(), far_start * score.scale);
     for (double farthest : reaches) {
-
       FitOptions options;
       options.shared_start = starts(candidate, score, farthest);
       // The commands start where, to first order, they answer to it.
@@ -117,6 +116,12 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
       options.hopeless = hopeless;
       a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
       if (a.fit.u.size() > 0) break;  // else no equilibrium that far
+    }
+    if (is_switch && !(a.fit.converged && a.fit.value < base.fit.value)) {
+      FitOptions anew;
+      anew.hopeless = hopeless;
+      if (JointFit f = fit(*a.study, a.shared, &evidence.fitted, anew); f.converged)
+        a.fit = std::move(f);
     }
     if (!is_switch) rescale(a, base.shared, candidate, score.scale, evidence.fitted, hopeless);
     a.message = a.fit.message;
@@ -155,14 +160,14 @@ ModelDescription with_fitted(ModelDescription d, const JointFit& fit) {
   return d;
 }
 
-void fit_heldout(Account& a, const std::vector<FittedCondition>& start, const Evidence& evidence) {
+void fit_heldout(Account& a, const std::vector<FittedCondition>* start, const Evidence& evidence) {
   const auto members = heldout_conditions(evidence.observations);
   if (members.empty()) return;
   a.heldout_study =
       std::make_shared<Study>(with_fitted(a.description, a.fit), evidence.observations, members);
   // A head pose that all data were laid with is no parameter of the model, but as little free.
   SharedPrior shared;
-  FitOptions options{&start};
+  FitOptions options{start};
   shared.head_pose = a.shared.head_pose;
   for (const SharedEstimate& e : a.fit.shared)
     if (a.shared.head_pose && e.name.starts_with("head_pose")) options.fixed[e.name] = e.value;

@@ -31,14 +31,15 @@ struct Evidence {
 };
 
 /// The base account with one candidate more: its strengths shared by all conditions, from the
-/// score's estimate on; a switch at its typical strength. It gives up once minus the log posterior
-/// does not come below `hopeless`.
+/// score's estimate on; a switch at its typical strength, with every condition inverted anew where it
+/// squeezes the base's commands into a worse valley. It gives up once minus the log posterior does
+/// not come below `hopeless`.
 Account refit(const Account& base, const Candidate& candidate, const Score& score,
               const Evidence& evidence, double hopeless);
 
 /// Fits the held-out conditions under an account, its shared parameters at their fitted values,
-/// from `start`. Nothing where none are held out.
-void fit_heldout(Account& account, const std::vector<FittedCondition>& start,
+/// from `start` (null: inverted anew). Nothing where none are held out.
+void fit_heldout(Account& account, const std::vector<FittedCondition>* start,
                  const Evidence& evidence);
 
 /// Sets chi_square and dof of its fit.

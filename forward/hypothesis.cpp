@@ -10,8 +10,8 @@ namespace {
 FreeNumber free_number(const Strength& way, const std::vector<int>& parameters,
                        std::span<const ParameterInfo> info) {
   FreeNumber n{"", {}, info[size_t(parameters.front())]};
-  if (n.info.side > 0) n.info.lower = n.info.absent;
-  if (n.info.side < 0) n.info.upper = n.info.absent;
+  n.info.lower = std::max(n.info.lower, n.info.least);
+  n.info.upper = std::min(n.info.upper, n.info.most);
   for (int k : parameters) n.keys.push_back(info[size_t(k)].name);
   n.name = way.where.empty() ? n.keys.front() : way.where;
   return n;

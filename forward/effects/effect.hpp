@@ -1,6 +1,7 @@
 #pragma once
 // One summand of the potential energy. The whole model is a sum of these.
 
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,8 +29,9 @@ struct ParameterInfo {
   /// Says where or how large, and counts only where some strength of its effect is off its absent
   /// value; `typical` is then how uncertain it is.
   bool detail = false;
-  /// +1, -1: what it stands for is only ever above or below `absent`, though the bounds allow more.
-  int side = 0;
+  /// Within the bounds, where it is ever found where what it stands for is there.
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
 };
 
 /// One way in which an effect may show: numbers let off their absent values at once.

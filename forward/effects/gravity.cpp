@@ -18,12 +18,14 @@ Mat3 tilt(double pitch) {
 Gravity::Gravity(const NodeMatrix& mass, const Vec3& acceleration, double pitch)
     : mass_(mass * Vector::Ones(mass.cols())) {
   const char* axis[] = {"x", "y", "z"};
-  // People are measured upright or on their back, hardly on their side.
-  const double typical[] = {9.81, 2, 9.81};
+  // People are measured upright or on their back, their heads within some 15 degrees of that; more
+  // is for pitch.
+  const double typical[] = {9.81, 1, 9.81}, least[] = {-4, -2.5, -20}, most[] = {20, 2.5, 0};
   for (size_t i = 0; i < 3; ++i)
-    info_[i] = {axis[i], "m/s^2",   acceleration[Eigen::Index(i)], -20, 20, 0, true,
-                false,   typical[i]};
-  info_[2].side = -1;  // an upright head
+    info_[i] = {axis[i], "m/s^2",  acceleration[Eigen::Index(i)],
+                -20,     20,       0,
+                true,    false,    typical[i],
+                false,   least[i], most[i]};
   info_[3] = {"pitch", "deg", pitch, -180, 180, 0};
 }
 
