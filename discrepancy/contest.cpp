@@ -141,8 +141,7 @@ class Refits {
     const auto start = with(candidate, account.fit.shared, *base.heldout_study, base.heldout,
                             base_.evidence.heldout, heldout_influences_);
     fit_heldout(account, &start, base_.evidence);
-    if (candidate.hypothesis && candidate.hypothesis->is_switch() &&
-        !(account.heldout.converged && account.heldout.value < base.heldout.value))
+    if (candidate.is_switch() && !improves(account.heldout, base.heldout))
       fit_heldout(account, nullptr, base_.evidence);
     return account.heldout.conditions.size() == base.heldout.conditions.size();
   }

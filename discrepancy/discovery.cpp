@@ -75,7 +75,7 @@ std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>
       const bool other = found[i].effect == "weak_muscle" && key != found[i].where;
       if (!other) n.parameters.push_back(e);
     }
-    if (found[i].hypothesis && found[i].hypothesis->is_switch())
+    if (found[i].is_switch())
       for (const FreeNumber& s : found[i].strengths)
         n.parameters.push_back({found[i].effect + "." + s.name, s.info.unit,
                                 s.info.absent + s.info.typical, 0, 0, s.info.upper});

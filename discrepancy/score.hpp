@@ -12,6 +12,8 @@ struct Candidate {
   std::optional<Hypothesis> hypothesis;  ///< unset: head_pose
   std::vector<FreeNumber> strengths;
   std::string label() const { return genio::label(effect, where); }
+  /// True where it is there or not, see Hypothesis::is_switch().
+  bool is_switch() const { return hypothesis && hypothesis->is_switch(); }
 };
 
 /// All hypotheses of a description, and the head pose unless it is estimated anyway.

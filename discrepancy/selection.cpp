@@ -32,7 +32,8 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
 /// What a candidate's numbers are believed to be, strong ones by `scale`, with those of `base`.
 SharedPrior believed(SharedPrior base, const Candidate& c, double scale) {
   if (!c.hypothesis) {
-    base.head_pose = Prior::HeadPose{1e-3 * scale, 0.02 * scale};
+    base.head_pose = Prior::HeadPose{scale * c.strengths.front().info.typical,
+                                     scale * c.strengths.back().info.typical};
   } else {
     const auto add = [&](const std::vector<FreeNumber>& numbers, double by) {
       for (const FreeNumber& n : numbers)
@@ -71,8 +72,7 @@ void rescale(Account& a, const SharedPrior& base, const Candidate& c, double sca
     a.shared = believed(base, c, scale);
     FitOptions options{&a.fit.conditions, values_of(a.fit)};
     options.hopeless = hopeless;
-    JointFit next = fit(*a.study, a.shared, &errors, options);
-    a.fit = std::move(next);
+    a.fit = fit(*a.study, a.shared, &errors, options);
   }
 }
 
@@ -92,7 +92,7 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
   Account a;
   a.description = base.description;
   a.shared = base.shared;
-  const bool is_switch = candidate.hypothesis && candidate.hypothesis->is_switch();
+  const bool is_switch = candidate.is_switch();
   if (candidate.hypothesis)
     a.description = candidate.hypothesis->added_to(std::move(a.description), is_switch);
   if (!is_switch) a.shared = believed(base.shared, candidate, score.scale);
@@ -117,19 +117,24 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
       a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
       if (a.fit.u.size() > 0) break;  // else no equilibrium that far
     }
-    if (is_switch && !(a.fit.converged && a.fit.value < base.fit.value)) {
+    if (!is_switch) {
+      rescale(a, base.shared, candidate, score.scale, evidence.fitted, hopeless);
+    } else if (!improves(a.fit, base.fit)) {
       FitOptions anew;
       anew.hopeless = hopeless;
       if (JointFit f = fit(*a.study, a.shared, &evidence.fitted, anew); f.converged)
         a.fit = std::move(f);
     }
-    if (!is_switch) rescale(a, base.shared, candidate, score.scale, evidence.fitted, hopeless);
     a.message = a.fit.message;
   } catch (const InputError& e) {
     a.message = e.what();
   }
   if (a.fitted()) test_residuals(a, evidence.fitted);
   return a;
+}
+
+bool improves(const JointFit& f, const JointFit& other) {
+  return f.converged && f.value < other.value;
 }
 
 void test_residuals(Account& a, const Errors& errors) {

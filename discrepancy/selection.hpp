@@ -31,9 +31,9 @@ struct Evidence {
 };
 
 /// The base account with one candidate more: its strengths shared by all conditions, from the
-/// score's estimate on; a switch at its typical strength, with every condition inverted anew where it
-/// squeezes the base's commands into a worse valley. It gives up once minus the log posterior does
-/// not come below `hopeless`.
+/// score's estimate on; a switch at its typical strength, with every condition inverted anew where
+/// it squeezes the base's commands into a worse valley. It gives up once minus the log posterior
+/// does not come below `hopeless`.
 Account refit(const Account& base, const Candidate& candidate, const Score& score,
               const Evidence& evidence, double hopeless);
 
@@ -41,6 +41,9 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
 /// from `start` (null: inverted anew). Nothing where none are held out.
 void fit_heldout(Account& account, const std::vector<FittedCondition>* start,
                  const Evidence& evidence);
+
+/// True where it explains the data better than `other`, whatever the volumes of their posteriors.
+bool improves(const JointFit& fit, const JointFit& other);
 
 /// Sets chi_square and dof of its fit.
 void test_residuals(Account& account, const Errors& errors);

@@ -177,11 +177,10 @@ std::vector<Eigen::Triplet<double>> Comparison::curvature(const Positions& x, co
     }
   }
   for (const auto& point : target_.surface) {
-    const auto& corners = residuals.gradient[row++];
-    const std::vector<Facet> facet{
-        {corners[0].first, corners[1].first, corners[2].first, corners[3].first}};
-    const Distance d = over_nodes(
-        triangle_distance(point, FacetSurface(facet, x).corners(0), x.size(), moved), facet[0]);
+    const auto& nodes = residuals.gradient[row++];
+    const Facet facet{nodes[0].first, nodes[1].first, nodes[2].first, nodes[3].first};
+    const Distance d =
+        over_nodes(triangle_distance(point, corners_of(facet, x), x.size(), moved), facet);
     add(bend(d, point.sigma, dof), d.at, entries);
   }
   return entries;

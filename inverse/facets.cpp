@@ -15,6 +15,11 @@ std::vector<Facet> facets(const std::vector<Quad>& surface) {
   return result;
 }
 
+std::array<Vec3, 3> corners_of(const Facet& f, const Positions& x) {
+  const Vec3 a = node_position(x, f[0]), b = node_position(x, f[1]);
+  return {a, b, 0.25 * (a + b + node_position(x, f[2]) + node_position(x, f[3]))};
+}
+
 std::array<double, 4> node_shares(const std::array<double, 3>& w) {
   const double each = 0.25 * w[2];
   return {w[0] + each, w[1] + each, each, each};
@@ -22,9 +27,8 @@ std::array<double, 4> node_shares(const std::array<double, 3>& w) {
 
 FacetSurface::FacetSurface(const std::vector<Facet>& facets, const Positions& x) : facets_(facets) {
   for (const Facet& f : facets) {
-    const Vec3 a = node_position(x, f[0]), b = node_position(x, f[1]);
-    const Vec3 c = 0.25 * (a + b + node_position(x, f[2]) + node_position(x, f[3]));
-    corners_.push_back({a, b, c});
+    corners_.push_back(corners_of(f, x));
+    const auto& [a, b, c] = corners_.back();
     middle_.push_back((a + b + c) / 3);
     double square = 0;
     for (const Vec3& corner : corners_.back())

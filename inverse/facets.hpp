@@ -16,6 +16,9 @@ using Facet = std::array<int, 4>;
 
 std::vector<Facet> facets(const std::vector<Quad>& surface);
 
+/// Corners of the triangle in a shape.
+std::array<Vec3, 3> corners_of(const Facet& facet, const Positions& x);
+
 /// Shares of a facet's nodes in the point of the triangle with barycentric coordinates `w`.
 std::array<double, 4> node_shares(const std::array<double, 3>& w);
 

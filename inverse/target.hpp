@@ -113,7 +113,7 @@ class Comparison {
   TongueLine line_;
   Positions rest_;
   std::vector<Facet> facets_;  // of the surface
-  std::vector<Vec3> about_;                    // where a surface point's distance is taken, from it
+  std::vector<Vec3> about_;    // where a surface point's distance is taken, from it
   std::vector<int> nodes_;
   Vec2 middle_;
 };

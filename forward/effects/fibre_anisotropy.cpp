@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "forward/half_model.hpp"
 #include "forward/segment_forces.hpp"
 #include "forward/soft_spring.hpp"
 
@@ -10,7 +11,6 @@ namespace {
 
 constexpr double toe = 0.1;
 constexpr double neighbourhood = 6e-3;  // [m]
-constexpr double on_septum = 1e-6;      // [m]
 
 auto fibre_law(double modulus) {
   return [=](double i4) {
@@ -23,23 +23,21 @@ auto fibre_law(double modulus) {
 }  // namespace
 
 Vec3 fibre_direction(const Muscle& muscle, const Positions& rest, const Vec3& point) {
-  const auto middle = [&](const FibreSegment& s) {
-    return Vec3(0.5 * (s.start.position(rest) + s.end.position(rest)));
-  };
-  std::vector<const FibreSegment*> near, own;
-  for (const auto& s : muscle.segments) {
-    near.push_back(&s);
-    const double y = middle(s)[1];
-    if (std::abs(y) < on_septum || y * point[1] > 0) own.push_back(&s);
+  std::vector<std::pair<double, const FibreSegment*>> near;  // squared distance, segment
+  for (const bool all : {false, true}) {
+    if (!near.empty()) break;
+    for (const auto& s : muscle.segments) {
+      const Vec3 middle = 0.5 * (s.start.position(rest) + s.end.position(rest));
+      if (all || std::abs(middle[1]) < on_plane || middle[1] * point[1] > 0)
+        near.emplace_back((middle - point).squaredNorm(), &s);
+    }
   }
-  if (!own.empty()) near = own;
-  const auto distance2 = [&](const FibreSegment* s) { return (middle(*s) - point).squaredNorm(); };
   double nearest = std::numeric_limits<double>::infinity();
-  for (const auto* s : near) nearest = std::min(nearest, distance2(s));
+  for (const auto& [square, s] : near) nearest = std::min(nearest, square);
   Mat3 sum = Mat3::Zero();
-  for (const auto* s : near) {
+  for (const auto& [square, s] : near) {
     const Vec3 t = span(*s, rest).normalized();
-    sum += std::exp((nearest - distance2(s)) / (neighbourhood * neighbourhood)) * t * t.transpose();
+    sum += std::exp((nearest - square) / (neighbourhood * neighbourhood)) * t * t.transpose();
   }
   return Eigen::SelfAdjointEigenSolver<Mat3>(sum).eigenvectors().col(2);
 }

@@ -18,8 +18,8 @@ Mat3 tilt(double pitch) {
 Gravity::Gravity(const NodeMatrix& mass, const Vec3& acceleration, double pitch)
     : mass_(mass * Vector::Ones(mass.cols())) {
   const char* axis[] = {"x", "y", "z"};
-  // People are measured upright or on their back, their heads within some 15 degrees of that; more
-  // is for pitch.
+  // People are measured upright or on their back, their heads tilted by no more than 15 degrees to
+  // a side or 24 forwards; more is for pitch.
   const double typical[] = {9.81, 1, 9.81}, least[] = {-4, -2.5, -20}, most[] = {20, 2.5, 0};
   for (size_t i = 0; i < 3; ++i)
     info_[i] = {axis[i], "m/s^2",  acceleration[Eigen::Index(i)],

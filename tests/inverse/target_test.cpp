@@ -42,7 +42,8 @@ class TargetTest : public test::PulledTongue {
 
 TEST_F(TargetTest, SmoothingEvensOutTheKinksBetweenFacesAndLittleElse) {
   // From one side of an edge of every quad to the other.
-  std::vector<double> exact, smoothed, off;
+  std::vector<double> exact, smoothed;
+  double off = 0;
   for (const Quad& q : m.surface) {
     const Vec3 a = node_position(m.rest, q[0]), b = node_position(m.rest, q[1]),
                c = node_position(m.rest, q[2]), d = node_position(m.rest, q[3]);
@@ -64,7 +65,7 @@ TEST_F(TargetTest, SmoothingEvensOutTheKinksBetweenFacesAndLittleElse) {
       return (slope(middle + across) - slope(middle - across)).norm();
     };
     exact.push_back(jump(0)), smoothed.push_back(jump(1.5e-3));
-    off.push_back(std::abs(seen(middle, 1.5e-3).values[0] - seen(middle, 0).values[0]));
+    off = std::max(off, std::abs(seen(centre, 1.5e-3).values[0] - seen(centre, 0).values[0]));
   }
   // All but the sharpest twentieth: the rim and the tip.
   const auto most = [](std::vector<double> v) {
@@ -73,7 +74,7 @@ TEST_F(TargetTest, SmoothingEvensOutTheKinksBetweenFacesAndLittleElse) {
   };
   EXPECT_GT(most(exact), 0.2);
   EXPECT_LT(most(smoothed), 0.2 * most(exact));
-  EXPECT_LT(1e-3 * most(off), 5e-4);
+  EXPECT_LT(1e-3 * off, 5e-4);  // where the tongue is bent most
 }
 
 TEST_F(TargetTest, DistancesFromAWarpedSurfaceAreTheSameInTheMirror) {
