@@ -107,7 +107,7 @@ class Search {
     d_.families = families(observations(), d_.rounds.front());
     d_.model = with_fitted(account().description, account().fit);
     d_.fit_tail = chi_square_tail(account().chi_square, account().dof);
-    d_.effects = named(account().fit, effects_, confidence_);
+    d_.effects = named(account().fit, effects_, confidence_, options_.doubt.efficacy_sd);
     const bool explained = d_.fit_tail >= options_.fit_level;
     if (effects_.empty()) {
       d_.finding = explained ? Finding::none : Finding::unknown;

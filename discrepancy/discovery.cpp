@@ -6,6 +6,32 @@
 #include <cmath>
 
 namespace genio {
+namespace {
+
+constexpr double ninety = 1.645;  // standard deviations to either end of a 90 % interval
+
+/// How strong an effect is, in the unit of one of its strengths: of a vector its length.
+double size_of(const Candidate& c, const std::string& unit,
+               const std::vector<SharedEstimate>& estimates) {
+  double square = 0;
+  for (const FreeNumber& n : c.strengths)
+    for (const SharedEstimate& e : estimates)
+      if (e.name == c.effect + "." + n.name && n.info.unit == unit)
+        square += std::pow(e.value - n.info.absent, 2);
+  return std::sqrt(square);
+}
+
+/// Strengths of the model's effects only: where data were laid has nothing to do with tissue.
+void doubt_strengths(NamedEffect& effect, const Candidate& c, double efficacy_sd) {
+  if (!c.hypothesis) return;
+  const std::vector<SharedEstimate> as_fitted = effect.parameters;
+  for (const FreeNumber& n : c.strengths)
+    for (SharedEstimate& e : effect.parameters)
+      if (e.name == c.effect + "." + n.name)
+        e = doubted(e, n.info, size_of(c, n.info.unit, as_fitted), efficacy_sd);
+}
+
+}  // namespace
 
 const char* to_string(Finding finding) {
   switch (finding) {
@@ -64,8 +90,24 @@ Gap gap_of(const JointFit& fit, double noise) {
   return g;
 }
 
+SharedEstimate doubted(SharedEstimate e, const ParameterInfo& info, double size,
+                       double efficacy_sd) {
+  const double more = efficacy_sd * size, strength = e.value - info.absent;
+  double below = std::hypot(e.value - e.low, ninety * more);
+  double above = std::hypot(e.high - e.value, ninety * more);
+  const auto skewed = [&](double& away) {
+    const double s = std::abs(strength);
+    if (s > 0) away = std::max(away, s * std::expm1(std::min(1.0, away / s)));
+  };
+  if (info.absent <= info.lower) skewed(above);
+  else if (info.absent >= info.upper) skewed(below);
+  e.sd = std::hypot(e.sd, more);
+  e.low = std::max(info.lower, e.value - below), e.high = std::min(info.upper, e.value + above);
+  return e;
+}
+
 std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>& found,
-                               const std::vector<double>& confidence) {
+                               const std::vector<double>& confidence, double efficacy_sd) {
   std::vector<NamedEffect> result;
   for (size_t i = 0; i < found.size(); ++i) {
     NamedEffect n{found[i].effect, found[i].where, {}, confidence[i]};
@@ -75,6 +117,7 @@ std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>
       const bool other = found[i].effect == "weak_muscle" && key != found[i].where;
       if (!other) n.parameters.push_back(e);
     }
+    doubt_strengths(n, found[i], efficacy_sd);
     if (found[i].is_switch())
       for (const FreeNumber& s : found[i].strengths)
         n.parameters.push_back({found[i].effect + "." + s.name, s.info.unit,

@@ -28,9 +28,15 @@ struct NamedEffect {
   double confidence = 0;                   ///< probability among all accounts tried
 };
 
-/// The effects found, one after another, with their parameters as fitted.
+/// An estimated strength of an effect that does a unit's work only up to `efficacy_sd`, as a muscle
+/// does a newton's: its course and the tissue about it are not the model's. `size`: how strong the
+/// effect is, in the strength's unit. What can be on one side of `absent` only is log-normal above.
+SharedEstimate doubted(SharedEstimate estimate, const ParameterInfo& info, double size,
+                       double efficacy_sd);
+
+/// The effects found, one after another, with their parameters as fitted and doubted.
 std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>& found,
-                               const std::vector<double>& confidence);
+                               const std::vector<double>& confidence, double efficacy_sd);
 
 /// Another account of the same data.
 struct Rival {

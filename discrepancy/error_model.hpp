@@ -10,7 +10,7 @@ struct ModelDoubt {
   double fibre_turn = 5;           ///< mean angle between true and modelled fibres [deg]
   double fibre_length = 8e-3;      ///< over which that angle stays alike [m]
   double fibres_alike = 0.75;      ///< part of a variance that is alike left and right
-  double efficacy_sd = 0.1;        ///< of what a newton of a muscle does: its course as a whole
+  double efficacy_sd = 0.1;        ///< of what a newton of a muscle, or an effect's unit, does
   double tissue_sd = 0.03;         ///< of the logarithm of the tissue's stiffness
   double correction_sd = 0.25;     ///< of the mesh's own error, as a part of its correction
   double least_mesh_error = 3e-5;  ///< [m]

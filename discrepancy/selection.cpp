@@ -76,6 +76,16 @@ void rescale(Account& a, const SharedPrior& base, const Candidate& c, double sca
   }
 }
 
+/// What no such effect does and this one would; empty: nothing.
+std::string implausible(const Candidate& c, const Account& a) {
+  const Model& m = a.study->model(0);
+  for (size_t e = 0; e < m.effects.size(); ++e)
+    if (m.effects[e]->name() == c.effect)
+      return m.effects[e]->implausible(
+          effect_parameters(m, a.fit.conditions.front().parameters, int(e)));
+  return {};
+}
+
 }  // namespace
 
 std::vector<double> log_prior(const std::vector<Candidate>& candidates) {
@@ -126,6 +136,10 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
         a.fit = std::move(f);
     }
     a.message = a.fit.message;
+    if (a.fit.converged) {
+      if (const auto what = implausible(candidate, a); !what.empty())
+        a.fit.converged = false, a.message = "it would " + what;
+    }
   } catch (const InputError& e) {
     a.message = e.what();
   }

@@ -66,6 +66,9 @@ class Effect {
   /// The ways in which it may be what a model lacks. Here: each parameter that has a typical value
   /// and is no detail, by itself.
   virtual std::vector<Strength> strengths() const;
+  /// What is never met about such values, alone or together, as an end to "it would ..."; empty:
+  /// nothing. Nobody names an effect with them.
+  virtual std::string implausible(EffectParameters /*p*/) const { return {}; }
 
   /// Potential energy [J]; +infinity where tissue would be turned inside out.
   virtual double energy(const Positions& x, EffectParameters p) const = 0;

@@ -1,6 +1,10 @@
 #include "forward/effects/gravity.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace genio {
@@ -18,8 +22,7 @@ Mat3 tilt(double pitch) {
 Gravity::Gravity(const NodeMatrix& mass, const Vec3& acceleration, double pitch)
     : mass_(mass * Vector::Ones(mass.cols())) {
   const char* axis[] = {"x", "y", "z"};
-  // People are measured upright or on their back, their heads tilted by no more than 15 degrees to
-  // a side or 24 forwards; more is for pitch.
+  // The box about what is plausible; more is for pitch.
   const double typical[] = {9.81, 1, 9.81}, least[] = {-4, -2.5, -20}, most[] = {20, 2.5, 0};
   for (size_t i = 0; i < 3; ++i)
     info_[i] = {axis[i], "m/s^2",  acceleration[Eigen::Index(i)],
@@ -27,6 +30,22 @@ Gravity::Gravity(const NodeMatrix& mass, const Vec3& acceleration, double pitch)
                 true,    false,    typical[i],
                 false,   least[i], most[i]};
   info_[3] = {"pitch", "deg", pitch, -180, 180, 0};
+}
+
+std::string Gravity::implausible(EffectParameters p) const {
+  // People are measured upright or on their back, heads bowed by 24 degrees, thrown back by 15 more
+  // or tilted to a side by 15 at most. Data are not sure of a direction: give 1 m/s^2 way.
+  constexpr double most_bowed = -24, most_back = 105, most_aside = 15, way = 1;
+  const auto beyond = [](double size, double angle, double limit) {
+    return size * std::sin(std::clamp(angle - limit, 0.0, 90.0) * degree);
+  };
+  const double in_plane = std::hypot(p[0], p[2]), size = std::hypot(in_plane, p[1]);
+  const double back = std::atan2(p[0], -p[2]) / degree;
+  const double aside = std::atan2(std::abs(p[1]), in_plane) / degree;
+  const bool turned =
+      std::max(beyond(in_plane, back, most_back), beyond(in_plane, -back, -most_bowed)) > way;
+  if (!turned && beyond(size, aside, most_aside) <= way) return {};
+  return fmt::format("pull at {:.0f} degrees back from upright and {:.0f} to a side", back, aside);
 }
 
 double Gravity::energy(const Positions& x, EffectParameters p) const {

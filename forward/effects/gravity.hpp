@@ -18,6 +18,8 @@ class Gravity final : public Effect {
   std::span<const ParameterInfo> parameters() const override { return info_; }
   /// A vector: its three parts at once.
   std::vector<Strength> strengths() const override { return {{"", {{0}, {1}, {2}}}}; }
+  /// Between upright, with the head bowed a little, and supine; little to a side.
+  std::string implausible(EffectParameters p) const override;
   double energy(const Positions& x, EffectParameters p) const override;
   void add_force(const Positions& x, EffectParameters p, Forces& f) const override;
   void add_stiffness(const Positions&, EffectParameters, Stiffness&) const override {}

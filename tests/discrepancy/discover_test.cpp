@@ -2,6 +2,7 @@
 
 #include "discrepancy/discover.hpp"
 
+#include <cmath>
 #include <fstream>
 
 #include "tests/discrepancy/posed_tongue.hpp"
@@ -41,6 +42,36 @@ TEST_F(Discover, NamesAnOpenJawAndTheGapShrinksAlsoWhereItDidNotLook) {
   EXPECT_TRUE(d.map_after.patches.empty());
   EXPECT_GT(d.hidden.log_evidence, 0);
   EXPECT_NEAR(d.model.effects.at("jaw_opening").at("angle"), 3, 0.3);
+}
+
+ParameterInfo between(double lower, double upper) {
+  ParameterInfo info;
+  info.lower = lower, info.upper = upper;
+  return info;
+}
+
+TEST(Intervals, AreAsWideAsTheEffectsOwnDoubtMakesThem) {
+  const SharedEstimate fitted{"e.v", "N", 10, 1, 10 - 1.645, 10 + 1.645};
+  const SharedEstimate same = doubted(fitted, between(-100, 100), 10, 0);
+  EXPECT_DOUBLE_EQ(same.low, fitted.low);
+  EXPECT_DOUBLE_EQ(same.high, fitted.high);
+  const SharedEstimate wider = doubted(fitted, between(-100, 100), 10, 0.1);
+  EXPECT_NEAR(wider.sd, std::sqrt(2), 1e-12);
+  EXPECT_NEAR(wider.high - 10, 1.645 * std::sqrt(2), 1e-12);
+  EXPECT_NEAR(10 - wider.low, wider.high - 10, 1e-12);
+  EXPECT_EQ(doubted(fitted, between(9, 10.5), 10, 0.1).low, 9);
+}
+
+TEST(Intervals, AreSkewedAwayFromWhereAnEffectVanishes) {
+  const SharedEstimate fitted{"e.v", "N", 10, 3, 10 - 4.9, 10 + 4.9};
+  const SharedEstimate up = doubted(fitted, between(0, 100), 10, 0);
+  EXPECT_NEAR(up.high, 10 * std::exp(0.49), 1e-9);
+  EXPECT_NEAR(up.low, fitted.low, 1e-12);
+  SharedEstimate mirrored = fitted;
+  mirrored.value = -10, mirrored.low = -14.9, mirrored.high = -5.1;
+  const SharedEstimate down = doubted(mirrored, between(-100, 0), 10, 0);
+  EXPECT_NEAR(down.low, -up.high, 1e-9);
+  EXPECT_NEAR(down.high, -up.low, 1e-9);
 }
 
 class ObservationsFile : public testing::Test {

@@ -100,5 +100,25 @@ TEST_F(Hypotheses, GravityPullsNoUprightHeadUp) {
   EXPECT_NO_THROW(build_model(d, "falls upwards"));
 }
 
+TEST_F(Hypotheses, GravityIsPlausibleFromUprightToSupineOnly) {
+  ModelDescription d = bare;
+  d.effects["gravity"] = {{"z", -9.81}};
+  const Model m = build_model(d, "upright");
+  const Effect& gravity = *find_effect(m, "gravity");
+  const auto plausible = [&](double x, double y, double z) {
+    const double p[] = {x, y, z, 0};
+    return gravity.implausible(p).empty();
+  };
+  EXPECT_TRUE(plausible(0, 0, -9.81));
+  EXPECT_TRUE(plausible(9.81, 0, 0));       // on the back
+  EXPECT_TRUE(plausible(-4, 0, -9));        // bowed
+  EXPECT_TRUE(plausible(-0.8, 0.6, -0.5));  // too weak to tell where it points
+  EXPECT_FALSE(plausible(0, 9.81, 0));      // on a side
+  EXPECT_FALSE(plausible(-9.81, 0, -0.5));  // face down
+  EXPECT_FALSE(plausible(-2.4, 2.4, 0));
+  EXPECT_NE(gravity.implausible(std::array{0.0, 9.0, -9.0, 0.0}).find("45 to a side"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace genio
