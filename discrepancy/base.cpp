@@ -15,20 +15,37 @@ void expect_all(const Study& study, const JointFit& f) {
     throw InputError("the model does not reach the conditions: " + f.message);
 }
 
-/// The errors at a fit, and the fit under them. Forces that made up for the mesh go back once it
-/// is corrected, and its error with them.
+/// Minus the log posterior of a fit and of the errors that it is under.
+double cost(const JointFit& f, const Errors& errors) {
+  return f.value + errors.covariance.matrixLLT().diagonal().array().log().sum();
+}
+
+/// True where a fit under new errors does not go with them as the last did with its own. Where a
+/// shape is about to snap, errors of the first order are large, make the misfit along them look
+/// free, and are small again where a fit then goes.
+bool runs_away(const JointFit& next, const Errors& new_errors, const JointFit& last,
+               const Errors& errors) {
+  return errors.covariance.rows() > 0 && cost(next, new_errors) > cost(last, errors) + far_behind;
+}
+
+/// The errors at a fit, and the fit under them; those it came with, if any, where that runs away.
+/// Forces that made up for the mesh go back once it is corrected, and its error with them.
 void settle(Study& study, const SharedPrior& shared, JointFit& f, Errors& errors,
             Refinement* refinement, const ModelDoubt& doubt) {
-  const auto refit = [&](double precision) {
-    JointFit next = fit(study, shared, &errors, {.start = &f.conditions, .precision = precision});
+  const auto refit = [&](const Errors& under, double precision) {
+    JointFit next = fit(study, shared, &under, {.start = &f.conditions, .precision = precision});
     expect_all(study, next);
-    f = std::move(next);
+    return next;
   };
   expect_all(study, f);
-  errors = errors_at(study, f, refinement, doubt);
-  refit(rough);
-  if (refinement && !refinement->holds(study, f)) errors = errors_at(study, f, refinement, doubt);
-  refit(FitOptions().precision);
+  for (int passes = 0; passes < most_passes; ++passes) {
+    Errors there = errors_at(study, f, refinement, doubt);
+    JointFit next = refit(there, rough);
+    if (runs_away(next, there, f, errors)) break;
+    f = std::move(next), errors = std::move(there);
+    if (!refinement || refinement->holds(study, f)) break;
+  }
+  f = refit(errors, FitOptions().precision);
 }
 
 void settle_fitted(Base& base, const ModelDoubt& doubt) {
@@ -99,15 +116,24 @@ void move_base(Base& base, const Account& winner, const std::vector<Candidate>& 
   if (!a.heldout_study) return;
   // The winner's own fit stays where the settled parameters have none.
   a.heldout_study = winner.heldout_study, a.heldout = winner.heldout;
-  for (bool last : {false, true}) {
+  const auto refit = [&](const Errors& under) {
     Account next = a;
-    fit_heldout(next, &a.heldout.conditions, evidence);
-    if (next.heldout.conditions.size() != a.heldout.conditions.size()) break;
+    fit_heldout(next, &a.heldout.conditions, {evidence.observations, evidence.fitted, under});
+    return next;
+  };
+  const auto keep = [&](Account next) {
     a.heldout_study = next.heldout_study, a.heldout = std::move(next.heldout);
-    if (!last)
-      evidence.heldout =
-          errors_at(*a.heldout_study, a.heldout, base.refinement.get(), options.doubt);
-  }
+  };
+  const auto is_complete = [&](const Account& next) {
+    return next.heldout.conditions.size() == a.heldout.conditions.size();
+  };
+  Account next = refit(evidence.heldout);
+  if (!is_complete(next)) return;
+  keep(std::move(next));
+  Errors there = errors_at(*a.heldout_study, a.heldout, base.refinement.get(), options.doubt);
+  next = refit(there);
+  if (!is_complete(next) || runs_away(next.heldout, there, a.heldout, evidence.heldout)) return;
+  keep(std::move(next)), evidence.heldout = std::move(there);
 }
 
 void settle_account(const Base& base, Account& account, const std::vector<Candidate>& effects) {

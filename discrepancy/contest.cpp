@@ -140,10 +140,13 @@ class Refits {
     const Candidate& candidate = contest_.round.candidates[i].candidate;
     const auto start = with(candidate, account.fit.shared, *base.heldout_study, base.heldout,
                             base_.evidence.heldout, heldout_influences_);
+    const auto complete = [&] {
+      return account.heldout.conditions.size() == base.heldout.conditions.size();
+    };
     fit_heldout(account, &start, base_.evidence);
-    if (candidate.is_switch() && !improves(account.heldout, base.heldout))
+    if (!complete() || (candidate.is_switch() && !improves(account.heldout, base.heldout)))
       fit_heldout(account, nullptr, base_.evidence);
-    return account.heldout.conditions.size() == base.heldout.conditions.size();
+    return complete();
   }
 
   Base& base_;

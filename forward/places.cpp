@@ -69,7 +69,7 @@ std::vector<Place> regions(const ModelDescription& d) {
     return Vec3(at + patch_depth * (middle - at).normalized());
   };
   std::vector<Place> result = {region("anterior", patch(0.2)), region("middle", patch(0.5)),
-                               region("posterior", patch(0.8))};
+                               region("posterior", patch(0.8)), region("root", patch(1))};
   const Vec3 at = patch(0.5);
   const double y = side * half_width(d, at);
   result.push_back(region("left", at - y * Vec3::UnitY()));

@@ -5,7 +5,8 @@
 
 namespace genio {
 
-/// Patches of tissue along the dorsum and at its sides: anterior, middle, posterior, left, right.
+/// Patches of tissue along the dorsum and at its sides: anterior, middle, posterior, root, left,
+/// right.
 std::vector<Place> regions(const ModelDescription& description);
 
 /// Bundles that nature has and many models lack, laid out by the landmarks: the horizontal

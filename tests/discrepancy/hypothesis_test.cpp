@@ -72,7 +72,8 @@ TEST_F(Hypotheses, ArePlacedWhereThereIsTissue) {
             std::min(nearest, (x - Vec3(h.table.at("x"), h.table.at("y"), h.table.at("z"))).norm());
       EXPECT_LT(nearest, 6e-3) << h.where;
     }
-  EXPECT_EQ(places, (std::set<std::string>{"anterior", "left", "middle", "posterior", "right"}));
+  EXPECT_EQ(places,
+            (std::set<std::string>{"anterior", "left", "middle", "posterior", "right", "root"}));
 }
 
 TEST_F(Hypotheses, ThereIsNoneForAnEffectThatTheModelHas) {
