@@ -52,6 +52,7 @@ Json found_json(const Discovery& d) {
           {"chi2_over_dof", d.rounds.front().chi_square / d.rounds.front().dof},
           {"probability_of_nothing", d.rounds.front().nothing},
           {"fit_p", d.fit_tail},
+          {"heldout_p", d.heldout_tail},
           {"scoring_s", d.rounds.front().seconds_scoring},
           {"wall_s", d.seconds}};
 }

@@ -107,17 +107,23 @@ class Search {
     d_.families = families(observations(), d_.rounds.front());
     d_.model = with_fitted(account().description, account().fit);
     d_.fit_tail = chi_square_tail(account().chi_square, account().dof);
+    if (!account().heldout.conditions.empty()) {
+      const Projection heldout(account().heldout, base_.evidence.heldout.covariance);
+      d_.heldout_tail = chi_square_tail(heldout.chi_square(), heldout.dof());
+    }
     d_.effects = named(account().fit, effects_, confidence_, options_.doubt.efficacy_sd);
     const bool explained = d_.fit_tail >= options_.fit_level;
     if (effects_.empty()) {
-      d_.finding = explained ? Finding::none : Finding::unknown;
+      // What only the conditions held out show no search could find, but there it is.
+      const bool everywhere = explained && d_.heldout_tail >= options_.fit_level;
+      d_.finding = everywhere ? Finding::none : Finding::unknown;
     } else if (!explained) {
       d_.finding = Finding::unknown;
     } else {
       const double least = *std::min_element(confidence_.begin(), confidence_.end());
       d_.finding = least >= options_.certain ? Finding::named : Finding::ambiguous;
     }
-    d_.message = explanation(d_.finding, d_.fit_tail);
+    d_.message = explanation(d_.finding, d_.fit_tail, d_.heldout_tail);
     if (d_.finding == Finding::unknown || d_.finding == Finding::none) name_nothing();
   }
 

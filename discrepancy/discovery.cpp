@@ -47,12 +47,15 @@ const char* to_string(Finding finding) {
   return "none";
 }
 
-std::string explanation(Finding finding, double p) {
+std::string explanation(Finding finding, double p, double heldout) {
   switch (finding) {
     case Finding::none:
       return fmt::format("what is left is within noise (p = {:.2g})", p);
     case Finding::unknown:
-      return fmt::format("a gap beyond noise (p = {:.1g}) that no candidate explains", p);
+      return fmt::format(
+          "a gap beyond noise (p = {:.1g}, {:.1g} in conditions held out) that no candidate "
+          "explains",
+          p, heldout);
     case Finding::ambiguous:
       return "these data do not tell the candidates below apart";
     case Finding::named:

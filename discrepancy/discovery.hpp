@@ -10,8 +10,9 @@ namespace genio {
 
 enum class Finding { named, ambiguous, none, unknown };
 const char* to_string(Finding finding);
-/// In words; `p`: probability of residuals as large as those left, nothing missing.
-std::string explanation(Finding finding, double p);
+/// In words; `p`, `heldout`: probability of residuals as large as those left, nothing missing, in
+/// the conditions fitted and in those held out.
+std::string explanation(Finding finding, double p, double heldout);
 
 /// The gap between data and shapes, root mean square over points [m]: as it is, and what exceeds
 /// the noise.
@@ -81,9 +82,10 @@ struct Discovery {
   std::vector<Rival> alternatives;
   std::vector<Family> families;
   Gap before, after, heldout_before, heldout_after;
-  double noise = 0;        ///< [m]
-  double fit_tail = 1;     ///< probability of residuals as large as those left, nothing missing
-  ModelDescription model;  ///< patched
+  double noise = 0;         ///< [m]
+  double fit_tail = 1;      ///< probability of residuals as large as those left, nothing missing
+  double heldout_tail = 1;  ///< the same of the conditions held out
+  ModelDescription model;   ///< patched
   std::vector<Round> rounds;
   std::vector<ShapeLine> lines_before, lines_after;  ///< fitted conditions, then held-out ones
   ResidualMap map_before, map_after;                 ///< of the fitted conditions

@@ -216,6 +216,8 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
         s.statistic = chi2;
         s.p = dof == 1 ? 2 * normal_tail(std::sqrt(chi2)) : chi_square_tail(chi2, dof);
       }
+      // A switch has no strength to pay for, and its typical one is a penalty's.
+      if (candidates[c].is_switch()) s.log_evidence = 0.5 * s.statistic;
       s.estimate = step.cwiseProduct(typical);
       for (Eigen::Index i = 0; i < count; ++i) s.estimate[i] += strengths[size_t(i)].info.absent;
       s.sd = posterior.inverse().diagonal().cwiseSqrt().cwiseProduct(typical);

@@ -91,6 +91,7 @@ Json to_json(const Discovery& d, const Observations& o, const std::string& model
           {"heldout_gap_after_mm", 1e3 * d.heldout_after.rms},
           {"noise_mm", 1e3 * d.noise},
           {"fit_p", d.fit_tail},
+          {"heldout_p", d.heldout_tail},
           {"model", model.empty() ? Json() : Json(model)},
           {"where", where_json(d, o)},
           {"hidden_force",
