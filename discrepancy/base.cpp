@@ -15,19 +15,6 @@ void expect_all(const Study& study, const JointFit& f) {
     throw InputError("the model does not reach the conditions: " + f.message);
 }
 
-/// Minus the log posterior of a fit and of the errors that it is under.
-double cost(const JointFit& f, const Errors& errors) {
-  return f.value + errors.covariance.matrixLLT().diagonal().array().log().sum();
-}
-
-/// True where a fit under new errors does not go with them as the last did with its own. Where a
-/// shape is about to snap, errors of the first order are large, make the misfit along them look
-/// free, and are small again where a fit then goes.
-bool runs_away(const JointFit& next, const Errors& new_errors, const JointFit& last,
-               const Errors& errors) {
-  return errors.covariance.rows() > 0 && cost(next, new_errors) > cost(last, errors) + far_behind;
-}
-
 /// The errors at a fit, and the fit under them; those it came with, if any, where that runs away.
 /// Forces that made up for the mesh go back once it is corrected, and its error with them.
 void settle(Study& study, const SharedPrior& shared, JointFit& f, Errors& errors,
@@ -41,7 +28,7 @@ void settle(Study& study, const SharedPrior& shared, JointFit& f, Errors& errors
   for (int passes = 0; passes < most_passes; ++passes) {
     Errors there = errors_at(study, f, refinement, doubt);
     JointFit next = refit(there, rough);
-    if (runs_away(next, there, f, errors)) break;
+    if (runs_away(next, there, f, errors, far_behind)) break;
     f = std::move(next), errors = std::move(there);
     if (!refinement || refinement->holds(study, f)) break;
   }
@@ -132,7 +119,8 @@ void move_base(Base& base, const Account& winner, const std::vector<Candidate>& 
   keep(std::move(next));
   Errors there = errors_at(*a.heldout_study, a.heldout, base.refinement.get(), options.doubt);
   next = refit(there);
-  if (!is_complete(next) || runs_away(next.heldout, there, a.heldout, evidence.heldout)) return;
+  if (!is_complete(next) || runs_away(next.heldout, there, a.heldout, evidence.heldout, far_behind))
+    return;
   keep(std::move(next)), evidence.heldout = std::move(there);
 }
 

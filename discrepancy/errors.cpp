@@ -21,6 +21,11 @@ Corrections smoothing(const Study& study, const JointFit& fit) {
   return result;
 }
 
+/// Minus the log posterior, but for constants.
+double cost(const JointFit& f, const Errors& errors) {
+  return f.value + errors.covariance.matrixLLT().diagonal().array().log().sum();
+}
+
 }  // namespace
 
 Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
@@ -30,6 +35,11 @@ Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
   e.matrix = residual_covariance(study, fit, influences_of(study, fit), e.corrections, doubt);
   e.covariance.compute(e.matrix);
   return e;
+}
+
+bool runs_away(const JointFit& next, const Errors& new_errors, const JointFit& last,
+               const Errors& errors, double by) {
+  return errors.covariance.rows() > 0 && cost(next, new_errors) > cost(last, errors) + by;
 }
 
 }  // namespace genio

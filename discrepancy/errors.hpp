@@ -11,4 +11,11 @@ namespace genio {
 Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
                  const ModelDoubt& doubt);
 
+/// True where a fit under new errors does not go with them as the last did with its own: minus the
+/// log posterior of fit and errors grew by more than `by`. Where a shape is about to snap, errors
+/// of the first order are large, make the misfit along them look free, and are small again where a
+/// fit then goes. Never true without last errors.
+bool runs_away(const JointFit& next, const Errors& new_errors, const JointFit& last,
+               const Errors& errors, double by);
+
 }  // namespace genio

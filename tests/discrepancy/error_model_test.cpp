@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "discrepancy/errors.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {
@@ -98,6 +99,23 @@ TEST(NoiseCovariance, OfPointsShiftedAlongADimpledSurfaceChangesSign) {
   const double apart = (r.places[10] - r.places[12]).norm();
   EXPECT_NEAR(c(10, 11), 0, 1e-12);
   EXPECT_NEAR(c(10, 12), std::exp(-apart / 8e-3), 1e-12);
+}
+
+Errors errors_of(double variance) {
+  Errors e;
+  e.matrix = variance * Matrix::Identity(10, 10);
+  e.covariance.compute(e.matrix);
+  return e;
+}
+
+TEST(Errors, AFitThatItsOwnErrorsDoNotFollowRunsAway) {
+  JointFit last, next;
+  last.value = 20, next.value = 60;
+  const Errors wide = errors_of(100), narrow = errors_of(1);
+  EXPECT_FALSE(runs_away(next, narrow, last, wide, 30));  // 60 of 20 + 10 log 10 + 30
+  EXPECT_TRUE(runs_away(next, narrow, last, wide, 10));
+  EXPECT_TRUE(runs_away(next, narrow, last, narrow, 30));
+  EXPECT_FALSE(runs_away(next, narrow, last, Errors(), 0));  // nothing to hold on to
 }
 
 }  // namespace

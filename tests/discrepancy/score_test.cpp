@@ -92,6 +92,29 @@ TEST_F(Scores, ATongueThatIsPulledUpHasNoGravityDownwards) {
   EXPECT_GT(either.log_evidence, downwards.log_evidence + 10);
 }
 
+TEST_F(Scores, ASwitchPaysForNoStrength) {
+  ModelDescription touching = tongue;
+  for (Vec3& v : touching.palate->vertices) v[2] -= 8e-3;
+  touching.effects["palate_contact"] = {{"stiffness", 2e8}};
+  ModelDescription bare = touching;
+  bare.effects.erase("palate_contact");
+  ASSERT_NO_FATAL_FAILURE(fit_to(touching, with_mobile_supports(bare)));
+  errors.matrix = residual_covariance(*study, f, influences, {}, {});
+  errors.covariance.compute(errors.matrix);
+  f = fit(*study, {}, &errors, {&f.conditions});
+  ASSERT_TRUE(f.converged) << f.message;
+  all = candidates(bare, observations);
+  const Projection projection(f, errors.covariance);
+  for (const Score& s : score(all, *study, f, influences_of(*study, f), projection)) {
+    if (all[s.candidate].effect != "palate_contact") continue;
+    EXPECT_TRUE(all[s.candidate].is_switch());
+    EXPECT_GT(s.statistic, 4);
+    EXPECT_DOUBLE_EQ(s.log_evidence, 0.5 * s.statistic);
+    return;
+  }
+  FAIL() << "no palate to touch";
+}
+
 TEST_F(Scores, NoFitStartsFromConditionsThatAreMissing) {
   look_at(tongue);
   f.conditions.pop_back();
