@@ -111,15 +111,13 @@ void move_base(Base& base, const Account& winner, const std::vector<Candidate>& 
   const auto keep = [&](Account next) {
     a.heldout_study = next.heldout_study, a.heldout = std::move(next.heldout);
   };
-  const auto is_complete = [&](const Account& next) {
-    return next.heldout.conditions.size() == a.heldout.conditions.size();
-  };
   Account next = refit(evidence.heldout);
-  if (!is_complete(next)) return;
+  if (!reaches_all(next.heldout, a.heldout)) return;
   keep(std::move(next));
   Errors there = errors_at(*a.heldout_study, a.heldout, base.refinement.get(), options.doubt);
   next = refit(there);
-  if (!is_complete(next) || runs_away(next.heldout, there, a.heldout, evidence.heldout, far_behind))
+  if (!reaches_all(next.heldout, a.heldout) ||
+      runs_away(next.heldout, there, a.heldout, evidence.heldout, far_behind))
     return;
   keep(std::move(next)), evidence.heldout = std::move(there);
 }
@@ -139,7 +137,7 @@ void settle_account(const Base& base, Account& account, const std::vector<Candid
   if (a.heldout_study) {
     evidence.heldout.corrections = a.refinement->corrections(*a.heldout_study, a.heldout);
     fit_heldout(a, &account.heldout.conditions, evidence);
-    if (a.heldout.conditions.size() != account.heldout.conditions.size()) return;
+    if (!reaches_all(a.heldout, account.heldout)) return;
   }
   account = std::move(a);
 }

@@ -140,13 +140,11 @@ class Refits {
     const Candidate& candidate = contest_.round.candidates[i].candidate;
     const auto start = with(candidate, account.fit.shared, *base.heldout_study, base.heldout,
                             base_.evidence.heldout, heldout_influences_);
-    const auto complete = [&] {
-      return account.heldout.conditions.size() == base.heldout.conditions.size();
-    };
     fit_heldout(account, &start, base_.evidence);
-    if (!complete() || (candidate.is_switch() && !improves(account.heldout, base.heldout)))
+    if (!reaches_all(account.heldout, base.heldout) ||
+        (candidate.is_switch() && !improves(account.heldout, base.heldout)))
       fit_heldout(account, nullptr, base_.evidence);
-    return complete();
+    return reaches_all(account.heldout, base.heldout);
   }
 
   Base& base_;

@@ -45,6 +45,11 @@ void fit_heldout(Account& account, const std::vector<FittedCondition>* start,
 /// True where it explains the data better than `other`, whatever the volumes of their posteriors.
 bool improves(const JointFit& fit, const JointFit& other);
 
+/// True where it has all conditions that `before` had: none was out of reach.
+inline bool reaches_all(const JointFit& fit, const JointFit& before) {
+  return fit.conditions.size() == before.conditions.size();
+}
+
 /// Sets chi_square and dof of its fit.
 void test_residuals(Account& account, const Errors& errors);
 

@@ -13,14 +13,15 @@ namespace {
 
 class Scores : public test::FittedTongue {
  protected:
-  void look_at(const ModelDescription& truth) {
-    ASSERT_NO_FATAL_FAILURE(fit_to(truth, with_mobile_supports(tongue)));
+  void look_at(const ModelDescription& truth) { look_at(truth, tongue); }
+  void look_at(const ModelDescription& truth, const ModelDescription& model) {
+    ASSERT_NO_FATAL_FAILURE(fit_to(truth, with_mobile_supports(model)));
     errors.matrix = residual_covariance(*study, f, influences, {}, {});
     errors.covariance.compute(errors.matrix);
     f = fit(*study, {}, &errors, {&f.conditions});
     ASSERT_TRUE(f.converged) << f.message;
     influences = influences_of(*study, f);
-    all = candidates(tongue, observations);
+    all = candidates(model, observations);
   }
   Errors errors;
   std::vector<Candidate> all;
@@ -98,14 +99,9 @@ TEST_F(Scores, ASwitchPaysForNoStrength) {
   touching.effects["palate_contact"] = {{"stiffness", 2e8}};
   ModelDescription bare = touching;
   bare.effects.erase("palate_contact");
-  ASSERT_NO_FATAL_FAILURE(fit_to(touching, with_mobile_supports(bare)));
-  errors.matrix = residual_covariance(*study, f, influences, {}, {});
-  errors.covariance.compute(errors.matrix);
-  f = fit(*study, {}, &errors, {&f.conditions});
-  ASSERT_TRUE(f.converged) << f.message;
-  all = candidates(bare, observations);
+  ASSERT_NO_FATAL_FAILURE(look_at(touching, bare));
   const Projection projection(f, errors.covariance);
-  for (const Score& s : score(all, *study, f, influences_of(*study, f), projection)) {
+  for (const Score& s : score(all, *study, f, influences, projection)) {
     if (all[s.candidate].effect != "palate_contact") continue;
     EXPECT_TRUE(all[s.candidate].is_switch());
     EXPECT_GT(s.statistic, 4);
