@@ -15,6 +15,7 @@ constexpr double shortest_stage = 0.02;  // of the unbalanced force; below it sp
 constexpr double longest_stage = 0.3;    // velocity gradient of its first step
 constexpr double far_step = 2e-3;        // [m]
 constexpr double near_balance = 0.05;    // residual over the applied forces
+constexpr double rough = 0.1;            // that will do under a contact softer than it is
 
 /// Newton iterations from result.x at result.parameters.
 void iterate(const Model& model, Workspace& ws, const SolveOptions& options, Equilibrium& result) {
@@ -109,7 +110,7 @@ void settle(const Model& model, Workspace& ws, const SolveOptions& options, Equi
       for (size_t k = 0; k < slots.size(); ++k)
         if (slots[k].info.penalty) result.parameters[k] = softness * full[k];
       SolveOptions coarse = options;
-      coarse.tolerance = 1e-5;
+      coarse.tolerance = rough;
       iterate(model, ws, coarse, result);
       if (!result) break;
     }
