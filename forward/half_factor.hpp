@@ -20,10 +20,19 @@ class HalfFactor {
   Vector solve(const Vector& b) const;
 
  private:
+  static constexpr int strip = 8;  ///< rows that are stored, and read, together
+  using Strip = Eigen::Array<float, strip, 1>;
+  using StripOf = Eigen::Map<const Strip>;
+  /// Values: of the own columns the lower triangle by columns, the inverse of its diagonal in it;
+  /// of the rows below one strip after the other, each by columns, the last filled up with zeros.
+  /// Memory sets the pace, and is read from one end to the other.
   struct Panel {
     int columns, rows;
     size_t first_row, first_value;
   };
+  void down(const Panel& p, float* x) const;
+  void up(const Panel& p, float* x, std::vector<Strip>& sums) const;
+
   std::vector<Panel> panels_;
   std::vector<int> rows_, permutation_;
   std::vector<float> values_;

@@ -19,6 +19,7 @@ Vector forces(const VolumeGradients& gradients, const Vector& pressure, const Do
 void MixedSolver::remember(Bulk bulk, const Vector& diagonal, const DofMap& dofs) {
   stale_ = std::move(bulk);
   iterations_ = 0;
+  last_ = {};
   Vector rest =
       diagonal - dofs.reduce(stale_.gradients.weighted_diagonal(stale_.stiffness, dofs.size()));
   const auto middle = rest.begin() + rest.size() / 2;
@@ -41,9 +42,15 @@ MixedVector MixedSolver::step(const Cholesky& factor, const MixedVector& right,
   return with_pressure(factor.solve(condensed(right, dofs)), right, dofs);
 }
 
-MixedVector MixedSolver::rough_step(const Cholesky& factor, const MixedVector& right,
-                                    const DofMap& dofs) const {
-  return with_pressure(factor.precondition(condensed(right, dofs)), right, dofs);
+const Vector& MixedSolver::displacement(const Cholesky& factor, Vector force) {
+  if (force.size() != last_.force.size() || force != last_.force)
+    last_.displacement = factor.precondition(force), last_.force = std::move(force);
+  return last_.displacement;
+}
+
+double MixedSolver::norm(const Cholesky& factor, const MixedVector& right, const DofMap& dofs) {
+  const Vector& d = displacement(factor, condensed(right, dofs));
+  return last_.force.dot(d);
 }
 
 bool MixedSolver::solve(const Cholesky& factor, const DofMap& dofs, const Product& k,
@@ -55,8 +62,7 @@ bool MixedSolver::solve(const Cholesky& factor, const DofMap& dofs, const Produc
   Vector unit(n + elements);
   unit << Vector::Constant(n, 1 / std::sqrt(stiffness_)), stale_.stiffness.cwiseSqrt();
   const Vector& c = now.stiffness;
-  const auto preconditioned = [&](const MixedVector& r) -> Vector {
-    const MixedVector z = rough_step(factor, r, dofs);
+  const auto scaled = [&](const MixedVector& z) -> Vector {
     Vector v(n + elements);
     v << z.u, z.pressure;
     return v.cwiseQuotient(unit);
@@ -70,13 +76,14 @@ bool MixedSolver::solve(const Cholesky& factor, const DofMap& dofs, const Produc
   Matrix basis(n + elements, patience + 1), h = Matrix::Zero(patience + 1, patience);
   std::vector<Eigen::JacobiRotation<double>> rotations;
   Vector g = Vector::Zero(patience + 1);
-  basis.col(0) = preconditioned(right);
+  basis.col(0) = scaled(with_pressure(displacement(factor, condensed(right, dofs)), right, dofs));
   const double whole = g[0] = basis.col(0).norm();
   basis.col(0) /= whole;
   for (int j = 0; j < patience; ++j) {
     iterations_ = j + 1;
     auto w = basis.col(j + 1);
-    w = preconditioned(times(basis.col(j).cwiseProduct(unit)));
+    const MixedVector image = times(basis.col(j).cwiseProduct(unit));
+    w = scaled(with_pressure(factor.precondition(condensed(image, dofs)), image, dofs));
     h.col(j).head(j + 1) = basis.leftCols(j + 1).transpose() * w;
     w -= basis.leftCols(j + 1) * h.col(j).head(j + 1);
     h(j + 1, j) = w.norm();

@@ -29,16 +29,12 @@ class MixedSolver {
  public:
   /// The factor's shape has this bulk. `diagonal`: of K0 over the unknowns.
   void remember(Bulk bulk, const Vector& diagonal, const DofMap& dofs);
-  void forget() { stale_ = {}; }
+  void forget() { stale_ = {}, last_ = {}; }
 
   /// The step that the factor itself takes: exact for the shape that it belongs to.
   MixedVector step(const Cholesky& factor, const MixedVector& right, const DofMap& dofs) const;
-  /// The same in single precision.
-  MixedVector rough_step(const Cholesky& factor, const MixedVector& right,
-                         const DofMap& dofs) const;
-
-  /// r + G0 c0 s: the force that K0^-1 turns into the displacement of an approximate step.
-  Vector condensed(const MixedVector& right, const DofMap& dofs) const;
+  /// Energy norm of the factor's step, squared, in single precision [J].
+  double norm(const Cholesky& factor, const MixedVector& right, const DofMap& dofs);
 
   using Product = std::function<Vector(const Vector&)>;
   /// Solves the system of K, given by its products, and `now`, to `accuracy` of the step's energy
@@ -50,10 +46,20 @@ class MixedSolver {
   int iterations() const { return iterations_; }
 
  private:
+  /// A force over the unknowns, and the factor's displacement by it in single precision.
+  struct Answered {
+    Vector force, displacement;
+  };
+
+  /// r + G0 c0 s: the force that K0^-1 turns into the displacement of an approximate step.
+  Vector condensed(const MixedVector& right, const DofMap& dofs) const;
   MixedVector with_pressure(Vector displacement, const MixedVector& right,
                             const DofMap& dofs) const;
+  /// Of `force`; remembered, for a step is solved for where its norm was asked before.
+  const Vector& displacement(const Cholesky& factor, Vector force);
 
   Bulk stale_;
+  Answered last_;
   int iterations_ = 0;
   double stiffness_ = 1;  // of the tissue but for its bulk, typical of an unknown [N/m]
 };

@@ -47,8 +47,7 @@ MixedState Newton::on_stage(const MixedState& from, const Positions& y, Vector p
 }
 
 double Newton::merit(const MixedVector& right) const {
-  const Vector b = ws_.mixed.condensed(right, model_.dofs);
-  return b.dot(ws_.cholesky.precondition(b));
+  return ws_.mixed.norm(ws_.cholesky, right, model_.dofs);
 }
 
 void Newton::assemble(const MixedState& s, const Positions& previous, const Vector& step) {

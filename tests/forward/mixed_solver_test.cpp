@@ -65,6 +65,30 @@ TEST(VolumeGradients, ForcesAreTheTransposeOfRates) {
   EXPECT_NEAR(forces.dot(v), q.dot(g.rates(v)), 1e-12 * forces.norm() * v.norm());
 }
 
+TEST(Cholesky, PreconditionsAsItSolvesButForSinglePrecision) {
+  const TwoShapes t;
+  for (int k = 0; k < 3; ++k) {
+    const Vector b = Vector::Random(t.model.dofs.unknowns()), exact = t.ws.cholesky.solve(b);
+    EXPECT_LT((t.ws.cholesky.precondition(b) - exact).norm(), 1e-4 * exact.norm());
+    EXPECT_GT((t.ws.cholesky.precondition(b) - exact).norm(), 0);
+  }
+}
+
+TEST(MixedSolver, NormIsThatOfTheFactorAtHand) {
+  TwoShapes t;
+  const MixedVector right = t.load();
+  const auto norm = [&] { return t.ws.mixed.norm(t.ws.cholesky, right, t.model.dofs); };
+  const double here = norm();
+  EXPECT_NEAR(here, right.u.dot(t.ws.cholesky.solve(right.u)), 1e-4 * here);
+  MixedVector step;
+  ASSERT_TRUE(t.solve({2 * right.u, right.pressure}, 1e-3, 40, step));
+  EXPECT_EQ(norm(), here) << "other solves in between change nothing";
+  ASSERT_TRUE(t.ws.factorize(t.model, t.second, t.more));
+  const double there = right.u.dot(t.ws.cholesky.solve(right.u));
+  ASSERT_GT(std::abs(there - here), 1e-2 * here);
+  EXPECT_NEAR(norm(), there, 1e-4 * there);
+}
+
 TEST(MixedSolver, AnswersAsAFreshFactorWould) {
   TwoShapes t;
   MixedVector step;
