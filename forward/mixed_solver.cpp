@@ -62,7 +62,8 @@ bool MixedSolver::solve(const Cholesky& factor, const DofMap& dofs, const Produc
   Vector unit(n + elements);
   unit << Vector::Constant(n, 1 / std::sqrt(stiffness_)), stale_.stiffness.cwiseSqrt();
   const Vector& c = now.stiffness;
-  const auto scaled = [&](const MixedVector& z) -> Vector {
+  const auto scaled_step = [&](const Vector& u, const MixedVector& r) -> Vector {
+    const MixedVector z = with_pressure(u, r, dofs);
     Vector v(n + elements);
     v << z.u, z.pressure;
     return v.cwiseQuotient(unit);
@@ -76,14 +77,14 @@ bool MixedSolver::solve(const Cholesky& factor, const DofMap& dofs, const Produc
   Matrix basis(n + elements, patience + 1), h = Matrix::Zero(patience + 1, patience);
   std::vector<Eigen::JacobiRotation<double>> rotations;
   Vector g = Vector::Zero(patience + 1);
-  basis.col(0) = scaled(with_pressure(displacement(factor, condensed(right, dofs)), right, dofs));
+  basis.col(0) = scaled_step(displacement(factor, condensed(right, dofs)), right);
   const double whole = g[0] = basis.col(0).norm();
   basis.col(0) /= whole;
   for (int j = 0; j < patience; ++j) {
     iterations_ = j + 1;
     auto w = basis.col(j + 1);
     const MixedVector image = times(basis.col(j).cwiseProduct(unit));
-    w = scaled(with_pressure(factor.precondition(condensed(image, dofs)), image, dofs));
+    w = scaled_step(factor.precondition(condensed(image, dofs)), image);
     h.col(j).head(j + 1) = basis.leftCols(j + 1).transpose() * w;
     w -= basis.leftCols(j + 1) * h.col(j).head(j + 1);
     h(j + 1, j) = w.norm();
