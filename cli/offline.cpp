@@ -16,7 +16,7 @@ Vector told_unknowns(const nlohmann::json& answer, const std::vector<Command>& c
     const std::string& name = commands[i].name;
     if (answer["activation"].contains(name)) z[Eigen::Index(i)] = answer["activation"][name];
     else if (answer["estimated"].contains(name))
-      z[Eigen::Index(i)] = answer["estimated"][name]["value"].get<double>() / commands[i].scale;
+      z[Eigen::Index(i)] = commands[i].unknown(answer["estimated"][name]["value"].get<double>());
     else return {};
   }
   return z;

@@ -17,7 +17,7 @@ double size_of(const Candidate& c, const std::string& unit,
   for (const FreeNumber& n : c.strengths)
     for (const SharedEstimate& e : estimates)
       if (e.name == c.effect + "." + n.name && n.info.unit == unit)
-        square += std::pow(e.value - n.info.absent, 2);
+        square += std::pow(n.info.off(e.value), 2);
   return std::sqrt(square);
 }
 
@@ -95,17 +95,18 @@ Gap gap_of(const JointFit& fit, double noise) {
 
 SharedEstimate doubted(SharedEstimate e, const ParameterInfo& info, double size,
                        double efficacy_sd) {
-  const double more = efficacy_sd * size, strength = e.value - info.absent;
-  double below = std::hypot(e.value - e.low, ninety * more);
-  double above = std::hypot(e.high - e.value, ninety * more);
+  const double more = efficacy_sd * size, strength = info.off(e.value);
+  double below = std::hypot(strength - info.off(e.low), ninety * more);
+  double above = std::hypot(info.off(e.high) - strength, ninety * more);
   const auto skewed = [&](double& away) {
     const double s = std::abs(strength);
     if (s > 0) away = std::max(away, s * std::expm1(std::min(1.0, away / s)));
   };
   if (info.absent <= info.lower) skewed(above);
   else if (info.absent >= info.upper) skewed(below);
-  e.sd = std::hypot(e.sd, more);
-  e.low = std::max(info.lower, e.value - below), e.high = std::min(info.upper, e.value + above);
+  e.sd = std::hypot(e.sd, info.ratio ? e.value * more : more);
+  e.low = std::max(info.lower, info.at(strength - below));
+  e.high = std::min(info.upper, info.at(strength + above));
   return e;
 }
 

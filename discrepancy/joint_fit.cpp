@@ -81,9 +81,9 @@ Vector start_of(const FittedCondition& before, const std::vector<Command>& comma
     const Command& c = commands[i];
     for (size_t j = 0; j < before.commands.size(); ++j)
       if (before.commands[j].name == c.name)
-        z[Eigen::Index(i)] = before.z[Eigen::Index(j)] * before.commands[j].scale / c.scale;
+        z[Eigen::Index(i)] = c.unknown(before.commands[j].value(before.z[Eigen::Index(j)]));
     if (const auto s = shared.find(c.name); s != shared.end())
-      z[Eigen::Index(i)] = s->second / c.scale;
+      z[Eigen::Index(i)] = c.unknown(s->second);
   }
   return z;
 }
@@ -134,14 +134,14 @@ void summarise_shared(JointFit& f, const Model& model, const BoxIntegral& all,
   for (size_t i = 0; i < c.commands.size(); ++i) {
     if (c.which[i] < f.own) continue;
     const Command& command = c.commands[i];
-    SharedEstimate e{command.name, command.unit, c.z[Eigen::Index(i)] * command.scale};
+    SharedEstimate e{command.name, command.unit, command.value(c.z[Eigen::Index(i)])};
     e.low = e.high = e.value;
     if (const auto at = std::find(open.begin(), open.end(), c.which[i]); at != open.end()) {
       const Eigen::Index k = at - open.begin();
       const CutNormal cut =
           cut_normal(all.centre[k], all.sd[k], f.lower[c.which[i]], f.upper[c.which[i]]);
-      e.value = command.scale * cut.mode, e.sd = command.scale * cut.sd;
-      e.low = command.scale * cut.low, e.high = command.scale * cut.high;
+      e.value = command.value(cut.mode), e.sd = command.slope(e.value) * cut.sd;
+      e.low = command.value(cut.low), e.high = command.value(cut.high);
     }
     // Through its unit and back a value may leave a bound by a rounding error.
     for (int k : command.parameters)

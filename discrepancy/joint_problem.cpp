@@ -101,7 +101,7 @@ void JointProblem::fix(const std::map<std::string, double>& values) {
     const auto at = values.find(commands[i].name);
     const Eigen::Index u = parts_.front()->which[i];
     if (at == values.end() || u < own_) continue;
-    lower_[u] = upper_[u] = at->second / commands[i].scale;
+    lower_[u] = upper_[u] = commands[i].unknown(at->second);
     for (Eigen::Index r = 0; r < rows_.rows(); ++r)
       if (rows_(r, u) != 0) rows_.row(r).setZero(), values_[r] = 0;
   }

@@ -33,7 +33,7 @@ std::vector<FittedCondition> with(const Candidate& candidate,
   for (size_t i = 0; i < candidate.strengths.size(); ++i)
     for (const SharedEstimate& e : estimates)
       if (e.name == candidate.effect + "." + candidate.strengths[i].name)
-        step[Eigen::Index(i)] = e.value - candidate.strengths[i].info.absent;
+        step[Eigen::Index(i)] = candidate.strengths[i].info.off(e.value);
   return response(f, errors, signature(candidate, study, f, influences) * step);
 }
 
@@ -44,7 +44,7 @@ std::vector<FittedCondition> without(const Candidate& candidate, const JointFit&
   for (const FreeNumber& n : candidate.strengths)
     for (size_t i = 0; i < first.commands.size(); ++i)
       if (first.commands[i].name == candidate.effect + "." + n.name)
-        step[first.which[i]] = n.info.absent / first.commands[i].scale - first.z[Eigen::Index(i)];
+        step[first.which[i]] = first.commands[i].unknown(n.info.absent) - first.z[Eigen::Index(i)];
   return response(f, errors, f.jacobian() * step);
 }
 

@@ -218,9 +218,13 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
       }
       // A switch has no strength to pay for, and its typical one is a penalty's.
       if (candidates[c].is_switch()) s.log_evidence = 0.5 * s.statistic;
-      s.estimate = step.cwiseProduct(typical);
-      for (Eigen::Index i = 0; i < count; ++i) s.estimate[i] += strengths[size_t(i)].info.absent;
-      s.sd = posterior.inverse().diagonal().cwiseSqrt().cwiseProduct(typical);
+      const Vector sd = posterior.inverse().diagonal().cwiseSqrt();
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const ParameterInfo& info = strengths[size_t(i)].info;
+        s.estimate[i] = info.at(step[i] * typical[i]);
+        s.sd[i] = 0.5 * (info.at((step[i] + sd[i]) * typical[i]) -
+                         info.at((step[i] - sd[i]) * typical[i]));
+      }
       s.direction = g * (step.isZero(0) ? Vector(Vector::Ones(count)) : step);
       s.direction.normalize();
       const double sides = side != 0 ? 1 : 2;

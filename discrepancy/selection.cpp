@@ -20,11 +20,10 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
     const FreeNumber& n = c.strengths[i];
     const double least = 0.05 * n.info.typical;  // off the kink of a one-sided one
     // A straight line may point far beyond where it holds.
-    double v = n.info.absent + std::clamp(s.estimate[Eigen::Index(i)] - n.info.absent,
-                                          -farthest * n.info.typical, farthest * n.info.typical);
-    if (std::abs(v - n.info.absent) < least)
-      v = n.info.absent + (n.info.absent < n.info.upper ? least : -least);
-    result[c.effect + "." + n.name] = std::clamp(v, n.info.lower, n.info.upper);
+    double off = std::clamp(n.info.off(s.estimate[Eigen::Index(i)]), -farthest * n.info.typical,
+                            farthest * n.info.typical);
+    if (std::abs(off) < least) off = n.info.absent < n.info.upper ? least : -least;
+    result[c.effect + "." + n.name] = std::clamp(n.info.at(off), n.info.lower, n.info.upper);
   }
   return result;
 }
@@ -38,7 +37,7 @@ SharedPrior believed(SharedPrior base, const Candidate& c, double scale) {
     const auto add = [&](const std::vector<FreeNumber>& numbers, double by) {
       for (const FreeNumber& n : numbers)
         base.parameters[c.effect + "." + n.name] = {
-            {n.info.absent, by * n.info.typical}, n.info.lower, n.info.upper};
+            {n.info.absent, by * n.info.typical}, n.info.lower, n.info.upper, n.info.ratio};
     };
     add(c.hypothesis->strengths, scale), add(c.hypothesis->details, 1);
   }
@@ -52,7 +51,7 @@ double scale_of(const Candidate& c, const JointFit& fit) {
   for (const FreeNumber& n : c.strengths)
     for (const SharedEstimate& e : fit.shared)
       if (e.name == c.effect + "." + n.name)
-        scale = std::max(scale, std::abs(e.value - n.info.absent) / n.info.typical);
+        scale = std::max(scale, std::abs(n.info.off(e.value)) / n.info.typical);
   return scale;
 }
 
@@ -119,7 +118,7 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
       for (size_t i = 0; i < candidate.strengths.size(); ++i) {
         const FreeNumber& n = candidate.strengths[i];
         step[Eigen::Index(i)] =
-            options.shared_start.at(candidate.effect + "." + n.name) - n.info.absent;
+            n.info.off(options.shared_start.at(candidate.effect + "." + n.name));
       }
       const auto start = response(base.fit, evidence.fitted, score.signature * step);
       options.start = &start;

@@ -49,7 +49,7 @@ Parameters apply_commands(const std::vector<Command>& commands, const Vector& ac
   for (size_t c = 0; c < commands.size(); ++c)
     for (size_t i = 0; i < commands[c].parameters.size(); ++i)
       parameters[commands[c].parameters[i]] =
-          activations[Eigen::Index(c)] * commands[c].scale * commands[c].shares[i];
+          commands[c].value(activations[Eigen::Index(c)]) * commands[c].shares[i];
   return parameters;
 }
 

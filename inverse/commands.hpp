@@ -2,6 +2,7 @@
 // The unknowns of an inversion: muscle commands, of each side or of both together, and what is
 // estimated along with them.
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,18 @@ struct Command {
   enum class Kind { muscle, parameter, pose };
 
   std::string name;             ///< "GGP" for both sides, "GGP_L" for one
-  double scale;                 ///< value at z = 1: a muscle's maximum force [N]
+  double scale;                 ///< value at z = 1, or its logarithm: a muscle's maximum force [N]
   std::vector<int> parameters;  ///< model parameter indices
   std::vector<double> shares;   ///< part of the value each gets
   Kind kind = Kind::muscle;
   std::string unit = "N";
   double lower = 0, upper = 1;  ///< of z
+  bool ratio = false;           ///< scale z is the value's logarithm
+
+  double value(double z) const { return ratio ? std::exp(scale * z) : scale * z; }
+  /// d value / dz where it has that value.
+  double slope(double value) const { return ratio ? scale * value : scale; }
+  double unknown(double value) const { return (ratio ? std::log(value) : value) / scale; }
 };
 
 /// All muscles of the model, in the model's order; `bilateral` joins left and right.

@@ -22,8 +22,9 @@ Matrix command_pulls(const Model& model, const std::vector<Command>& commands, c
   for (size_t c = 0; c < commands.size(); ++c) {
     const Matrix each = force_derivatives(model, x, p, commands[c].parameters);
     for (size_t i = 0; i < commands[c].shares.size(); ++i)
-      pulls.col(Eigen::Index(c)) +=
-          commands[c].shares[i] * commands[c].scale * each.col(Eigen::Index(i));
+      pulls.col(Eigen::Index(c)) += commands[c].shares[i] *
+                                    commands[c].slope(p[commands[c].parameters[i]]) *
+                                    each.col(Eigen::Index(i));
   }
   return pulls;
 }

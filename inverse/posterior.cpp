@@ -116,10 +116,10 @@ FitTest test_fit(const Vector& r, const Matrix& scatter, double used, double gai
 
 CommandEstimate estimate(const Command& c, double mode, double lower, double upper,
                          const Vector& samples, const Vector& believed) {
-  CommandEstimate e{c.name, mode * c.scale, c.scale, c.unit};
+  CommandEstimate e{c.name, c.value(mode), c.scale, c.unit};
   const auto s = summarise(samples, mode, lower, upper);
   const double spread = std::sqrt((believed.array() - believed.mean()).square().mean());
-  e.sd = s.sd * c.scale, e.low = s.low * c.scale, e.high = s.high * c.scale;
+  e.sd = s.sd * c.slope(c.value(mode)), e.low = c.value(s.low), e.high = c.value(s.high);
   e.information_bits = std::max(0.0, std::log2(spread / std::max(1e-12, s.sd)));
   return e;
 }
@@ -148,7 +148,7 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0, f = 0; i < z.size(); ++i) {
     const Command& c = commands[size_t(i)];
-    CommandEstimate e{c.name, z[i] * c.scale, c.scale, c.unit};
+    CommandEstimate e{c.name, c.value(z[i]), c.scale, c.unit};
     e.low = e.high = e.force;
     e.fixed = prior.fixed(i);
     if (!e.fixed) {

@@ -88,12 +88,16 @@ std::vector<Command> unknowns(const Model& model, const Prior& prior, bool bilat
     if (!(belief.mean >= lower && belief.mean <= upper))
       throw InputError(fmt::format("parameter {}: mean {} {}; expected {} to {}", name, belief.mean,
                                    info.unit, lower, upper));
+    if (belief.ratio && !(lower > 0)) throw std::invalid_argument(name + " has no logarithm");
+    const auto least = belief.ratio ? std::log(lower) : lower;
+    const auto most = belief.ratio ? std::log(upper) : upper;
+    const auto mean = belief.ratio ? std::log(belief.mean) : belief.mean;
     // Bounds may be far beyond what is believed; the unit is what may be reached.
-    const double reach = std::min(std::max(std::abs(lower), std::abs(upper)),
-                                  std::abs(belief.mean) + parameter_range * belief.sd);
+    const double reach = std::min(std::max(std::abs(least), std::abs(most)),
+                                  std::abs(mean) + parameter_range * belief.sd);
     result.push_back({name, reach, which, std::vector<double>(which.size(), 1.0),
-                      Command::Kind::parameter, info.unit, std::max(-1.0, lower / reach),
-                      std::min(1.0, upper / reach)});
+                      Command::Kind::parameter, info.unit, std::max(-1.0, least / reach),
+                      std::min(1.0, most / reach), belief.ratio});
   }
   if (prior.head_pose) {
     const auto& pose = *prior.head_pose;
@@ -136,7 +140,7 @@ PriorTerms prior_terms(const Prior& prior, const std::vector<Command>& unknowns)
         }
     } else if (c.kind == Command::Kind::parameter) {
       const Belief& belief = prior.parameters.at(c.name);
-      rows.add(i, belief.mean / c.scale, belief.sd / c.scale);
+      rows.add(i, c.unknown(belief.mean), belief.sd / c.scale);
     } else {
       rows.add(i, 0, 1 / pose_range);
     }

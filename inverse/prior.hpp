@@ -20,6 +20,7 @@ struct Normal {
 struct Belief : Normal {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
+  bool ratio = false;  ///< sd is of the parameter's logarithm
 };
 
 /// Beliefs in the terms people have them in; all of them Gaussian, within the muscles' maxima.

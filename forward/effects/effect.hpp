@@ -1,6 +1,7 @@
 #pragma once
 // One summand of the potential energy. The whole model is a sum of these.
 
+#include <cmath>
 #include <limits>
 #include <span>
 #include <string>
@@ -32,6 +33,12 @@ struct ParameterInfo {
   /// Within the bounds, where it is ever found where what it stands for is there.
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
+  /// A factor, 1 where absent: what is believed of it, `typical` too, is of its logarithm.
+  bool ratio = false;
+
+  /// How far a value is from `absent`, in the terms of `typical`; and the value so far off.
+  double off(double value_) const { return ratio ? std::log(value_) : value_ - absent; }
+  double at(double off_) const { return ratio ? std::exp(off_) : absent + off_; }
 };
 
 /// One way in which an effect may show: numbers let off their absent values at once.

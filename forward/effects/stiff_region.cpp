@@ -22,11 +22,12 @@ BatchTissue scaled(const Points& points, double a10, double a20, Scale scale) {
 
 StiffRegion::StiffRegion(const HexMesh& mesh, double factor, const Vec3& centre, double radius)
     : TissueEffect(mesh),
-      info_{{{"factor", "1", factor, 0.05, 100, 1, false, false, 10},
+      info_{{{"factor", "1", factor, 0.05, 100, 1, false, false, 1.5},
              {"x", "m", centre[0], -1, 1, centre[0], false, false, 6e-3, true},
              {"y", "m", centre[1], -1, 1, centre[1], false, false, 6e-3, true},
              {"z", "m", centre[2], -1, 1, centre[2], false, false, 6e-3, true},
              {"radius", "m", radius, 1e-3, 1, radius, false, false, 4e-3, true}}} {
+  info_[0].ratio = true;
   for (const ElementBatch& batch : batches_) {
     auto& points = points_.emplace_back();
     for (int q = 0; q < 8; ++q)

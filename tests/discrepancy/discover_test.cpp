@@ -74,6 +74,18 @@ TEST(Intervals, AreSkewedAwayFromWhereAnEffectVanishes) {
   EXPECT_NEAR(down.high, -up.low, 1e-9);
 }
 
+TEST(Intervals, OfAFactorAreThoseOfItsLogarithm) {
+  ParameterInfo info = between(0.05, 100);
+  info.absent = 1, info.ratio = true;
+  const SharedEstimate fitted{"stiff_region.factor", "1", 8, 4, 4, 16};
+  const SharedEstimate same = doubted(fitted, info, std::log(8), 0);
+  EXPECT_NEAR(same.low, 4, 1e-12);
+  EXPECT_NEAR(same.high, 16, 1e-12);
+  const SharedEstimate wider = doubted(fitted, info, std::log(8), 0.1);
+  EXPECT_NEAR(wider.low * wider.high, 64, 1e-9);
+  EXPECT_NEAR(std::log(wider.high / 8), std::hypot(std::log(2), 0.1645 * std::log(8)), 1e-9);
+}
+
 class ObservationsFile : public testing::Test {
  protected:
   std::string error(const std::string& text) {

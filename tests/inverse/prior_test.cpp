@@ -66,6 +66,30 @@ TEST_F(PriorTest, ABeliefMayBeCutOffWithinTheBoundsOfItsParameter) {
   EXPECT_THROW(unknowns(m, prior, false), InputError);
 }
 
+TEST_F(PriorTest, AFactorIsBelievedInByItsLogarithm) {
+  ModelDescription d = read_description(test::generic_model());
+  d.effects["stiff_region"] = {{"factor", 2.0}, {"x", 0.1}, {"y", 0}, {"z", 0.1}, {"radius", 0.02}};
+  const Model scarred = build_model(d, "scarred");
+  Prior prior;
+  prior.parameters["stiff_region.factor"] = {{1, 0.7}, 0.25, 8, true};
+  const auto u = unknowns(scarred, prior, true);
+  const PriorTerms t = prior_terms(prior, u);
+  const Command& c = u.back();
+  EXPECT_NEAR(c.value(c.lower), 0.25, 1e-12);
+  EXPECT_NEAR(c.value(c.upper), 8, 1e-12);
+  EXPECT_NEAR(c.value(c.unknown(3)), 3, 1e-12);
+  EXPECT_NEAR(c.slope(3), (c.value(c.unknown(3) + 1e-6) - c.value(c.unknown(3) - 1e-6)) / 2e-6,
+              1e-6 * c.slope(3));
+  Vector z = Vector::Zero(Eigen::Index(u.size()));
+  EXPECT_NEAR(t.value(z), 0, 1e-12);
+  z[z.size() - 1] = c.unknown(4);
+  EXPECT_NEAR(t.value(z), 0.5 * std::pow(std::log(4) / 0.7, 2), 1e-9);
+  z[z.size() - 1] = c.unknown(0.25);
+  EXPECT_NEAR(t.value(z), 0.5 * std::pow(std::log(4) / 0.7, 2), 1e-9);
+  EXPECT_EQ(apply_commands(u, z, default_parameters(scarred))[c.parameters.front()],
+            c.value(c.unknown(0.25)));
+}
+
 TEST_F(PriorTest, DensityKnowsWhatIsFixed) {
   Prior prior;
   prior.symmetry_sd = 1e-3;
@@ -146,10 +170,12 @@ TEST_F(PriorTest, AMovedHeadIsFoundAlong) {
 TEST_F(PriorTest, HessianCountsParametersAndPoseToo) {
   ModelDescription d = read_description(test::generic_model());
   d.effects["jaw_opening"] = {{"angle", 1.0}};
+  d.effects["stiff_region"] = {{"factor", 2.0}, {"x", 0.1}, {"y", 0}, {"z", 0.1}, {"radius", 0.02}};
   const Model jaw = build_model(d, "generic");
   Workspace own(jaw);
   Prior prior;
   prior.parameters["jaw_opening.angle"] = {1, 3};
+  prior.parameters["stiff_region.factor"] = {{1, 1}, 0.1, 10, true};
   prior.head_pose = Prior::HeadPose{2e-3, 0.05};
   Target t = curve_target(jaw, jaw.rest, 30, 1e-3);
   for (auto& p : t.curve) p.position += Vec2(1e-3, 2e-3);
@@ -158,7 +184,7 @@ TEST_F(PriorTest, HessianCountsParametersAndPoseToo) {
   Objective objective(jaw, comparison, prior, options, own);
   Vector z = Vector::Constant(Eigen::Index(objective.commands().size()), 0.03);
   const Matrix hessian = objective.exact_hessian(*objective.derivatives(z));
-  for (Eigen::Index k = z.size() - 5; k < z.size(); ++k) {
+  for (Eigen::Index k = z.size() - 6; k < z.size(); ++k) {
     const double h = 1e-4;
     const Vector up = objective.derivatives(z + h * Vector::Unit(z.size(), k))->gradient;
     const Vector down = objective.derivatives(z - h * Vector::Unit(z.size(), k))->gradient;
