@@ -111,7 +111,7 @@ class Search {
       const Projection heldout(account().heldout, base_.evidence.heldout.covariance);
       d_.heldout_tail = chi_square_tail(heldout.chi_square(), heldout.dof());
     }
-    d_.effects = named(account().fit, effects_, confidence_, options_.doubt.efficacy_sd);
+    d_.effects = named(account().fit, effects_, confidence_, options_.doubt);
     const bool explained = d_.fit_tail >= options_.fit_level;
     if (effects_.empty()) {
       // What only the conditions held out show no search could find, but there it is.

@@ -21,14 +21,20 @@ double size_of(const Candidate& c, const std::string& unit,
   return std::sqrt(square);
 }
 
-/// Strengths of the model's effects only: where data were laid has nothing to do with tissue.
-void doubt_strengths(NamedEffect& effect, const Candidate& c, double efficacy_sd) {
+/// Of the model's effects only: where data were laid has nothing to do with tissue.
+void widen(NamedEffect& effect, const Candidate& c, const ModelDoubt& doubt) {
   if (!c.hypothesis) return;
   const std::vector<SharedEstimate> as_fitted = effect.parameters;
-  for (const FreeNumber& n : c.strengths)
-    for (SharedEstimate& e : effect.parameters)
-      if (e.name == c.effect + "." + n.name)
-        e = doubted(e, n.info, size_of(c, n.info.unit, as_fitted), efficacy_sd);
+  const auto each = [&](const std::vector<FreeNumber>& numbers, auto doubt_of) {
+    for (const FreeNumber& n : numbers)
+      for (SharedEstimate& e : effect.parameters)
+        if (e.name == c.effect + "." + n.name) e = doubted(e, n.info, doubt_of(n.info));
+  };
+  each(c.strengths, [&](const ParameterInfo& info) {
+    return doubt.efficacy_sd * size_of(c, info.unit, as_fitted);
+  });
+  each(c.hypothesis->details,
+       [&](const ParameterInfo& info) { return info.unit == "m" ? doubt.place_sd : 0; });
 }
 
 }  // namespace
@@ -93,9 +99,8 @@ Gap gap_of(const JointFit& fit, double noise) {
   return g;
 }
 
-SharedEstimate doubted(SharedEstimate e, const ParameterInfo& info, double size,
-                       double efficacy_sd) {
-  const double more = efficacy_sd * size, strength = info.off(e.value);
+SharedEstimate doubted(SharedEstimate e, const ParameterInfo& info, double more) {
+  const double strength = info.off(e.value);
   double below = std::hypot(strength - info.off(e.low), ninety * more);
   double above = std::hypot(info.off(e.high) - strength, ninety * more);
   const auto skewed = [&](double& away) {
@@ -111,7 +116,7 @@ SharedEstimate doubted(SharedEstimate e, const ParameterInfo& info, double size,
 }
 
 std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>& found,
-                               const std::vector<double>& confidence, double efficacy_sd) {
+                               const std::vector<double>& confidence, const ModelDoubt& doubt) {
   std::vector<NamedEffect> result;
   for (size_t i = 0; i < found.size(); ++i) {
     NamedEffect n{found[i].effect, found[i].where, {}, confidence[i]};
@@ -121,7 +126,7 @@ std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>
       const bool other = found[i].effect == "weak_muscle" && key != found[i].where;
       if (!other) n.parameters.push_back(e);
     }
-    doubt_strengths(n, found[i], efficacy_sd);
+    widen(n, found[i], doubt);
     if (found[i].is_switch())
       for (const FreeNumber& s : found[i].strengths)
         n.parameters.push_back({found[i].effect + "." + s.name, s.info.unit,

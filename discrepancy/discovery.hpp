@@ -1,6 +1,7 @@
 #pragma once
 // What a search for a missing effect found.
 
+#include "discrepancy/error_model.hpp"
 #include "discrepancy/localise.hpp"
 #include "discrepancy/score.hpp"
 #include "discrepancy/separation.hpp"
@@ -29,15 +30,15 @@ struct NamedEffect {
   double confidence = 0;                   ///< probability among all accounts tried
 };
 
-/// An estimated strength of an effect that does a unit's work only up to `efficacy_sd`, as a muscle
-/// does a newton's: its course and the tissue about it are not the model's. `size`: how strong the
-/// effect is, in the strength's unit. What can be on one side of `absent` only is log-normal above.
-SharedEstimate doubted(SharedEstimate estimate, const ParameterInfo& info, double size,
-                       double efficacy_sd);
+/// An estimate whose number says what an effect does only up to a standard deviation of `more`, in
+/// the terms of its `typical`. What can be on one side of `absent` only is log-normal above.
+SharedEstimate doubted(SharedEstimate estimate, const ParameterInfo& info, double more);
 
-/// The effects found, one after another, with their parameters as fitted and doubted.
+/// The effects found, one after another, with their parameters as fitted and doubted: a unit of an
+/// effect does its work only up to a part, as a newton of a muscle does (their course and the
+/// tissue about them are not the model's), and a place is found as well as the mesh lets it be.
 std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>& found,
-                               const std::vector<double>& confidence, double efficacy_sd);
+                               const std::vector<double>& confidence, const ModelDoubt& doubt);
 
 /// Another account of the same data.
 struct Rival {

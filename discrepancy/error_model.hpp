@@ -12,6 +12,7 @@ struct ModelDoubt {
   double fibres_alike = 0.75;      ///< part of a variance that is alike left and right
   double efficacy_sd = 0.1;        ///< of what a newton of a muscle, or an effect's unit, does
   double tissue_sd = 0.03;         ///< of the logarithm of the tissue's stiffness
+  double place_sd = 6e-4;          ///< of a place or size found on the mesh [m]
   double correction_sd = 0.25;     ///< of the mesh's own error, as a part of its correction
   double least_mesh_error = 3e-5;  ///< [m]
   double local_error = 5e-5;       ///< of the mesh within an element, from point to point [m]

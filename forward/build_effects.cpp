@@ -199,7 +199,8 @@ const std::vector<EffectKind>& kinds() {
        [](Settings& s, const Anatomy& a) -> Made {
          const double factor = s.take("factor", 1), radius = s.take("radius", 0.015);
          return std::make_shared<StiffRegion>(
-             a.description.mesh, factor, s.take_point("", centroid(a.description.mesh)), radius);
+             a.description.mesh, factor, s.take_point("", centroid(a.description.mesh)), radius,
+             a.description.effects.contains("material_nonlinearity"));
        },
        regions},
       {"weak_muscle", weak_muscle},

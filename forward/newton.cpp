@@ -7,7 +7,8 @@
 namespace genio {
 namespace {
 
-constexpr int stage_iterations = 10;  // Newton steps towards a part of the load
+constexpr double largest_shift = 1e12;  // of K's mean diagonal: what needs more is no tissue
+constexpr int stage_iterations = 10;    // Newton steps towards a part of the load
 
 /// a / b, 0 where b is 0: an element without bulk has no pressure.
 Vector quotient(const Vector& a, const Vector& b) {
@@ -76,7 +77,11 @@ MixedVector Newton::direction(const MixedState& s, double accuracy) {
   if (iterate(s, accuracy, d)) return d;
   if (!factorize()) {
     shift_ = first_shift_;
-    while (!factorize()) shift_ *= 8;
+    while (!factorize()) {
+      if (shift_ *= 8; shift_ < largest_shift && mean_ > 0) continue;
+      shift_ = std::numeric_limits<double>::infinity();
+      return {Vector::Zero(s.right.u.size()), Vector::Zero(s.right.pressure.size())};
+    }
     first_shift_ = std::max(1e-4, shift_ / 8);
   }
   return ws_.mixed.step(ws_.cholesky, s.right, model_.dofs);
@@ -97,6 +102,7 @@ bool Newton::stage(const MixedState& from, const MixedVector& d, double t, doubl
     assemble(at, before, along);
     ++iterations;
     const MixedVector c = direction(at, 0.03);
+    if (!ws_.cholesky.valid()) return false;
     at.merit = merit(at.right);  // the factor may be a new one
     along = model_.dofs.expand(c.u);
     double part = step_limit(model_, at.x, along, p_);

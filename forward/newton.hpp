@@ -52,6 +52,7 @@ class Newton {
   double shift() const { return shift_; }
 
   /// Solves K + springs for what is unbalanced; where that is indefinite a shift makes it descend.
+  /// No step at all, and an infinite shift, where none does.
   MixedVector direction(const MixedState& state, double accuracy);
 
   /// Finds `reached` where the fraction `t` of the unbalanced force at `from` is gone, r(y) =

@@ -62,6 +62,19 @@ TEST(Equilibrium, FailureIsAStatusWithAReason) {
   EXPECT_FALSE(e.message.empty());
 }
 
+TEST(Equilibrium, TissueThatSoftensWithoutEndFailsInsteadOfSearchingOn) {
+  const Model m = test::small_model();
+  for (const char* name : {"elasticity.a10", "elasticity.a20"}) {
+    Workspace ws(m);
+    Parameters p = default_parameters(m);
+    p[parameter_index(m, name)] = -1e4;
+    p[parameter_index(m, "muscles.GGP_L")] = 1;
+    const auto e = solve_equilibrium(m, p, m.rest, ws);
+    EXPECT_FALSE(e) << name;
+    EXPECT_FALSE(e.message.empty());
+  }
+}
+
 TEST(Equilibrium, SmallDeformationAgreesForSmallForces) {
   auto d = test::small_block();
   d.effects.erase("gravity");
