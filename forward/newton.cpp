@@ -76,12 +76,11 @@ MixedVector Newton::direction(const MixedState& s, double accuracy) {
   MixedVector d;
   if (iterate(s, accuracy, d)) return d;
   if (!factorize()) {
-    shift_ = first_shift_;
-    while (!factorize()) {
-      if (shift_ *= 8; shift_ < largest_shift && mean_ > 0) continue;
-      shift_ = std::numeric_limits<double>::infinity();
-      return {Vector::Zero(s.right.u.size()), Vector::Zero(s.right.pressure.size())};
-    }
+    for (shift_ = first_shift_; !factorize(); shift_ *= 8)
+      if (!(shift_ < largest_shift && mean_ > 0)) {
+        shift_ = std::numeric_limits<double>::infinity();
+        return {Vector::Zero(s.right.u.size()), Vector::Zero(s.right.pressure.size())};
+      }
     first_shift_ = std::max(1e-4, shift_ / 8);
   }
   return ws_.mixed.step(ws_.cholesky, s.right, model_.dofs);

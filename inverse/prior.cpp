@@ -89,15 +89,15 @@ std::vector<Command> unknowns(const Model& model, const Prior& prior, bool bilat
       throw InputError(fmt::format("parameter {}: mean {} {}; expected {} to {}", name, belief.mean,
                                    info.unit, lower, upper));
     if (belief.ratio && !(lower > 0)) throw std::invalid_argument(name + " has no logarithm");
-    const auto least = belief.ratio ? std::log(lower) : lower;
-    const auto most = belief.ratio ? std::log(upper) : upper;
-    const auto mean = belief.ratio ? std::log(belief.mean) : belief.mean;
+    Command c{name,     1, which, std::vector<double>(which.size(), 1.0), Command::Kind::parameter,
+              info.unit};
+    c.ratio = belief.ratio;
+    const double least = c.unknown(lower), most = c.unknown(upper), mean = c.unknown(belief.mean);
     // Bounds may be far beyond what is believed; the unit is what may be reached.
-    const double reach = std::min(std::max(std::abs(least), std::abs(most)),
-                                  std::abs(mean) + parameter_range * belief.sd);
-    result.push_back({name, reach, which, std::vector<double>(which.size(), 1.0),
-                      Command::Kind::parameter, info.unit, std::max(-1.0, least / reach),
-                      std::min(1.0, most / reach), belief.ratio});
+    c.scale = std::min(std::max(std::abs(least), std::abs(most)),
+                       std::abs(mean) + parameter_range * belief.sd);
+    c.lower = std::max(-1.0, least / c.scale), c.upper = std::min(1.0, most / c.scale);
+    result.push_back(std::move(c));
   }
   if (prior.head_pose) {
     const auto& pose = *prior.head_pose;
