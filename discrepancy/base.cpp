@@ -7,8 +7,8 @@
 namespace genio {
 namespace {
 
-constexpr double rough = 1;     // precision of a first fit, of the log posterior
-constexpr int most_passes = 2;  // of corrections and fits under them
+constexpr double rough = 1, fine = 0.1;  // precision of first and last fits, of the log posterior
+constexpr int most_passes = 2;           // of corrections and fits under them
 
 void expect_all(const Study& study, const JointFit& f) {
   if (f.conditions.size() != study.size())
@@ -25,14 +25,16 @@ void settle(Study& study, const SharedPrior& shared, JointFit& f, Errors& errors
     return next;
   };
   expect_all(study, f);
-  for (int passes = 0; passes < most_passes; ++passes) {
+  bool rough_yet = true;
+  for (int passes = 1; passes <= most_passes; ++passes) {
+    const bool last = passes == most_passes;
     Errors there = errors_at(study, f, refinement, doubt);
-    JointFit next = refit(there, rough);
+    JointFit next = refit(there, last ? fine : rough);
     if (runs_away(next, there, f, errors, far_behind)) break;
-    f = std::move(next), errors = std::move(there);
+    f = std::move(next), errors = std::move(there), rough_yet = !last;
     if (!refinement || refinement->holds(study, f)) break;
   }
-  f = refit(errors, FitOptions().precision);
+  if (rough_yet) f = refit(errors, fine);
 }
 
 void settle_fitted(Base& base, const ModelDoubt& doubt) {

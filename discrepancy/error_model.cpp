@@ -5,11 +5,14 @@
 #include <map>
 #include <numbers>
 
+#include "discrepancy/covariance_root.hpp"
 #include "forward/half_model.hpp"
 #include "forward/hex8.hpp"
 
 namespace genio {
 namespace {
+
+constexpr double root_accuracy = 1e-2;  // of a variance: nobody knows it better
 
 /// Contour that each residual's point was traced with: -1 a point by itself.
 std::vector<int> contours(const Target& t) {
@@ -87,7 +90,7 @@ Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matri
   return result;
 }
 
-Matrix fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis) {
+Matrix fibre_covariance_root(const Model& model, const ModelDoubt& doubt, int axis) {
   // A mean angle of two Gaussian parts of sd s is s sqrt(pi / 2); the slope of a Gaussian field of
   // sd a and length l is a / l.
   const double slope = doubt.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
@@ -97,17 +100,15 @@ Matrix fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis) {
   const auto side = [](const Vec3& x) {
     return std::abs(x[1]) < on_plane ? 0.0 : std::copysign(1.0, x[1]);
   };
-  const auto n = Eigen::Index(model.mesh.nodes.size());
-  Matrix c(n, n);
-  for (Eigen::Index a = 0; a < n; ++a)
-    for (Eigen::Index b = 0; b <= a; ++b) {
-      const Vec3 &x = model.mesh.nodes[size_t(a)], &y = model.mesh.nodes[size_t(b)];
-      const double own = std::exp(-scale * (x - y).squaredNorm());
-      const double alike = (axis == 1 ? side(x) * side(y) : 1) *
-                           std::exp(-scale * (right_of(x) - right_of(y)).squaredNorm());
-      c(a, b) = c(b, a) = variance * (doubt.fibres_alike * alike + (1 - doubt.fibres_alike) * own);
-    }
-  return c;
+  const auto& nodes = model.mesh.nodes;
+  const auto covariance = [&](Eigen::Index a, Eigen::Index b) {
+    const Vec3 &x = nodes[size_t(a)], &y = nodes[size_t(b)];
+    const double own = std::exp(-scale * (x - y).squaredNorm());
+    const double alike = (axis == 1 ? side(x) * side(y) : 1) *
+                         std::exp(-scale * (right_of(x) - right_of(y)).squaredNorm());
+    return variance * (doubt.fibres_alike * alike + (1 - doubt.fibres_alike) * own);
+  };
+  return covariance_root(Eigen::Index(nodes.size()), covariance, root_accuracy * variance);
 }
 
 Matrix efficacy_covariance(const Study& study, const JointFit& fit,
@@ -179,8 +180,9 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
       block(i, i) += std::pow(doubt.local_error * c.residuals.rows[size_t(i)].scale, 2);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    const Matrix part = turned(Eigen::all, Eigen::seqN(axis, turned.cols() / 3, 3));
-    covariance += part * fibre_covariance(study.model(0), doubt, axis) * part.transpose();
+    const Matrix along = turned(Eigen::all, Eigen::seqN(axis, turned.cols() / 3, 3));
+    const Matrix part = along * fibre_covariance_root(study.model(0), doubt, axis);
+    covariance += part * part.transpose();
   }
   covariance += efficacy_covariance(study, fit, influences, doubt);
   covariance += std::pow(doubt.tissue_sd, 2) * tissue * tissue.transpose();

@@ -30,9 +30,9 @@ Matrix noise_covariance(const Target& target, const Residuals& residuals, double
 Matrix fibre_influence(const Model& model, const FittedCondition& condition,
                        const Matrix& influence);
 
-/// Covariance of the fibres' displacements along x, y or z (n x n [m^2]): two Gaussian fields, one
-/// alike left and right and one of each side's own.
-Matrix fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis);
+/// Root (n x rank [m]) of the covariance of the fibres' displacements along x, y or z: two Gaussian
+/// fields, one alike left and right and one of each side's own.
+Matrix fibre_covariance_root(const Model& model, const ModelDoubt& doubt, int axis);
 
 /// Covariance of all residuals, one condition's after another's, from muscles that do more or less
 /// for their force than the model has it, in all conditions alike.

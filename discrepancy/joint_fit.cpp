@@ -18,7 +18,7 @@ constexpr double roughness = 1;  // of the log posterior
 // Of conditions inverted by themselves:
 constexpr int more_starts = 3;
 constexpr double much_worse = 1.4;  // than the median misfit
-constexpr double guess_tolerance = 0.02;
+constexpr double guess_tolerance = 0.5;
 
 std::vector<Eigen::Index> open_unknowns(const Vector& lower, const Vector& upper) {
   std::vector<Eigen::Index> open;

@@ -74,7 +74,7 @@ struct FitOptions {
   const std::vector<FittedCondition>* start = nullptr;
   std::map<std::string, double> shared_start = {};  ///< of shared parameters, in their own unit
   std::map<std::string, double> fixed = {};         ///< shared parameters that stay as they are
-  double precision = 0.1;                           ///< of the log posterior
+  double precision = 0.5;  ///< of the log posterior: enough to compare accounts
   /// Gives up once minus the log posterior does not come below this.
   double hopeless = std::numeric_limits<double>::infinity();
 };

@@ -7,7 +7,8 @@
 namespace genio {
 namespace {
 
-constexpr double tolerance = 1e-4;
+// Ten times less changes corrections by less than 0.03 of the noise.
+constexpr double tolerance = 5e-3;
 constexpr const char* of_muscles = "muscles.";
 constexpr double nearby = 1e-3;  // of any node, between shapes of one correction [m]
 

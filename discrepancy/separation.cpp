@@ -18,14 +18,17 @@ constexpr double command = 0.15;  // activation of a muscle by itself
 constexpr int line_points = 30;
 constexpr double tolerance = 1e-5;   // of shapes
 constexpr double near_zero = 1e-4;   // activation of a muscle known to rest
+constexpr size_t lying = 4;          // postures, rest among them, that are tried lying, too
 constexpr double usual_error = 0.1;  // of a known force, where no condition has one
 
-/// A tongue under one account, in one orientation.
+/// A tongue under one account.
 struct Tongue {
   explicit Tongue(const ModelDescription& d) : model(build_model(d, d.name)), workspace(model) {}
-  Equilibrium posed(const std::map<std::string, double>& forces, const Positions& start) {
+  bool has_weight() const { return model.description->effects.contains("gravity"); }
+  Equilibrium posed(const Experiment& e, const Positions& start) {
     Parameters p = default_parameters(model);
-    for (const auto& [name, f] : forces) set_command(model, name, f, p);
+    for (const auto& [name, f] : e.forces) set_command(model, name, f, p);
+    if (e.pitch != 0 && has_weight()) p[parameter_index(model, "gravity.pitch")] = e.pitch;
     SolveOptions options;
     options.tolerance = tolerance;
     return solve_equilibrium(model, p, start, workspace, options);
@@ -72,10 +75,10 @@ double difference(Tongue& a, const HeadPose& a_laid, Tongue& b, const HeadPose& 
                   const Experiment& e, const Observations& o, const std::vector<int>& nodes,
                   double known_error, Positions& start) {
   const bool forces_known = known_error > 0;
-  const Equilibrium x = a.posed(e.forces, start);
+  const Equilibrium x = a.posed(e, start);
   if (!x) return -1;
   start = x.x;
-  const Equilibrium y = b.posed(e.forces, x.x);
+  const Equilibrium y = b.posed(e, x.x);
   if (!y) return -1;
   const Target target = measured(b.model, y.x, b_laid, nodes, o.noise);
   const Residuals r = Comparison(a.model, target)(x.x, a_laid);
@@ -111,11 +114,6 @@ double error_of_forces(const Condition& c) {
   return parts[parts.size() / 2];
 }
 
-ModelDescription tilted(ModelDescription d, double pitch) {
-  if (pitch == 0 || !d.effects.contains("gravity")) return d;
-  return with_parameter(std::move(d), "gravity.pitch", pitch);
-}
-
 }  // namespace
 
 std::string Experiment::label() const {
@@ -132,27 +130,29 @@ std::vector<Experiment> experiments(const Explanation& one, const Explanation& o
                                     const Observations& o, size_t most) {
   const Condition& first = o.conditions.front();
   const double known = error_of_forces(first);
-  const bool weight =
-      one.model.effects.contains("gravity") || other.model.effects.contains("gravity");
+  Tongue a(one.model), b(other.model);
+  const std::vector<int> nodes = seen_nodes(a.model, first);
+  std::vector<std::pair<Experiment, Positions>> upright(1, {Experiment(), a.model.rest});
+  for (const Command& c : muscle_commands(a.model, true))
+    upright.push_back({{{{c.name, command * c.scale}}}, a.model.rest});
   std::vector<Experiment> all;
-  std::vector<Positions> starts;  // of each posture, from one orientation to the next
-  for (double pitch : weight ? std::vector{0.0, 90.0, -90.0} : std::vector{0.0}) {
-    Tongue a(tilted(one.model, pitch)), b(tilted(other.model, pitch));
-    const std::vector<int> nodes = seen_nodes(a.model, first);
-    std::vector<Experiment> postures(1);
-    for (const Command& c : muscle_commands(a.model, true))
-      postures.push_back({{{c.name, command * c.scale}}});
-    starts.resize(postures.size(), a.model.rest);
-    for (size_t i = 0; i < postures.size(); ++i) {
-      Experiment& e = postures[i];
-      e.pitch = pitch;
-      e.log_odds = difference(a, one.pose, b, other.pose, e, o, nodes, known, starts[i]);
-      all.push_back(std::move(e));
-    }
+  const auto measure = [&](Experiment& e, Positions& start) {
+    e.log_odds = difference(a, one.pose, b, other.pose, e, o, nodes, known, start);
+    all.push_back(e);
+  };
+  for (auto& [e, shape] : upright) measure(e, shape);
+  if (a.has_weight() || b.has_weight()) {
+    // Weight adds about as much to each: the best ones and rest will do.
+    std::stable_sort(upright.begin() + 1, upright.end(), [](const auto& x, const auto& y) {
+      return x.first.log_odds > y.first.log_odds;
+    });
+    upright.resize(std::min(upright.size(), lying));
+    for (const double pitch : {90.0, -90.0})
+      for (auto& [e, shape] : upright) e.pitch = pitch, measure(e, shape);
   }
   std::erase_if(all, [](const Experiment& e) { return e.log_odds < 0; });
   std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.log_odds > b.log_odds; });
+                   [](const auto& x, const auto& y) { return x.log_odds > y.log_odds; });
   if (all.size() > most) all.resize(most);
   return all;
 }

@@ -24,11 +24,12 @@ struct Experiment {
   std::string label() const;
 };
 
-/// Single muscles, the tongue at rest and, where gravity plays a part in either account, lying on
-/// the back or on the face: those whose shapes under both accounts differ most, in units of the
-/// noise, after the posture's own forces did what they can to make up for it; the best first.
-/// Measured as the observations' first condition is. `log_odds` is half the squared difference,
-/// what a likelihood ratio brings on average. Postures that have no equilibrium are left out.
+/// The tongue at rest, single muscles and, where gravity plays a part in either account, rest and
+/// the best of these lying on the back or on the face: those whose shapes under both accounts
+/// differ most, in units of the noise, after the posture's own forces did what they can to make up
+/// for it; the best first. Measured as the observations' first condition is. `log_odds` is half the
+/// squared difference, what a likelihood ratio brings on average. Postures that have no equilibrium
+/// are left out.
 std::vector<Experiment> experiments(const Explanation& one, const Explanation& other,
                                     const Observations& observations, size_t most = 5);
 

@@ -93,7 +93,9 @@ DescentResult descend(MisfitProblem& problem, const Vector& start, const Descent
       local = std::move(next);
       result.u = u, result.value = *value;
       // The next promise is about what this one was wrong by.
-      if (std::abs(gain - promise) < options.tolerance) return result.converged = true, result;
+      if (std::abs(gain - promise) < options.tolerance ||
+          (promise < options.roughness && gain < 0.5 * promise))
+        return result.converged = true, result;
     } else if (promise < options.roughness) {
       return result.converged = true, result;
     } else if (trust < smallest_trust) {

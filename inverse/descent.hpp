@@ -35,8 +35,8 @@ struct DescentOptions {
   std::function<void(int iteration, double rms)> progress = {};
   /// Gives up once even twice what the next step promises would leave the objective above this.
   double hopeless = std::numeric_limits<double>::infinity();
-  /// A step that promises less than this and gains nothing ends it: kinks of the objective, where a
-  /// point's nearest place goes to another facet, are of this size.
+  /// A step that promises less than this and gains less than half of that ends it: kinks of the
+  /// objective, where a point's nearest place goes to another facet, are of this size.
   double roughness = 0;
 };
 
