@@ -23,12 +23,6 @@ std::array<long long, 3> place_cell(const Vec3& x) {
   return {cell(x[0]), cell(x[1]), cell(x[2])};
 }
 
-Positions prolonged(const HexMesh& mesh, const std::vector<Support>& supports, const Positions& x) {
-  HexMesh moved = mesh;
-  for (size_t a = 0; a < moved.nodes.size(); ++a) moved.nodes[a] = node_position(x, int(a));
-  return rest_positions(refined(moved, supports).mesh);
-}
-
 RefinedMesh refined(const HexMesh& mesh, const std::vector<Support>& supports) {
   RefinedMesh r{{mesh.nodes, {}}, supports, {}};
   std::map<std::vector<int>, int> between;  // node in the middle of these old ones

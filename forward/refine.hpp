@@ -20,9 +20,6 @@ Support support_between(const std::vector<Support>& parents);
 /// coordinates, so that these, and their means, lie inside cells.
 std::array<long long, 3> place_cell(const Vec3& x);
 
-/// Positions of the refined mesh's nodes where this one has the shape `x`: a start for its solves.
-Positions prolonged(const HexMesh& mesh, const std::vector<Support>& supports, const Positions& x);
-
 RefinedMesh refined(const HexMesh& mesh, const std::vector<Support>& supports);
 
 }  // namespace genio
