@@ -4,12 +4,11 @@
 
 namespace genio {
 
-Matrix covariance_root(Eigen::Index n,
-                       const std::function<double(Eigen::Index, Eigen::Index)>& covariance,
-                       double least) {
+Matrix covariance_root(Eigen::Index n, const Covariance& covariance, double part) {
   constexpr Eigen::Index more = 64;  // columns at a time
   Vector left(n);                    // of each variance
   for (Eigen::Index i = 0; i < n; ++i) left[i] = covariance(i, i);
+  const double least = part * left.maxCoeff();
   Matrix root(n, 0);
   Eigen::Index rank = 0;
   for (Eigen::Index worst; rank < n && left.maxCoeff(&worst) > least; ++rank) {

@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 
-#include "discrepancy/covariance_root.hpp"
 #include "forward/half_model.hpp"
 #include "forward/hex8.hpp"
 
@@ -90,25 +89,24 @@ Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matri
   return result;
 }
 
-Matrix fibre_covariance_root(const Model& model, const ModelDoubt& doubt, int axis) {
+Covariance fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis) {
   // A mean angle of two Gaussian parts of sd s is s sqrt(pi / 2); the slope of a Gaussian field of
   // sd a and length l is a / l.
   const double slope = doubt.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
   const double variance = std::pow(slope * doubt.fibre_length, 2);
   const double scale = 0.5 / (doubt.fibre_length * doubt.fibre_length);
+  const double alike_part = doubt.fibres_alike;
   const auto right_of = [](const Vec3& x) { return Vec3(x[0], std::abs(x[1]), x[2]); };
   const auto side = [](const Vec3& x) {
     return std::abs(x[1]) < on_plane ? 0.0 : std::copysign(1.0, x[1]);
   };
-  const auto& nodes = model.mesh.nodes;
-  const auto covariance = [&](Eigen::Index a, Eigen::Index b) {
+  return [=, &nodes = model.mesh.nodes](Eigen::Index a, Eigen::Index b) {
     const Vec3 &x = nodes[size_t(a)], &y = nodes[size_t(b)];
     const double own = std::exp(-scale * (x - y).squaredNorm());
     const double alike = (axis == 1 ? side(x) * side(y) : 1) *
                          std::exp(-scale * (right_of(x) - right_of(y)).squaredNorm());
-    return variance * (doubt.fibres_alike * alike + (1 - doubt.fibres_alike) * own);
+    return variance * (alike_part * alike + (1 - alike_part) * own);
   };
-  return covariance_root(Eigen::Index(nodes.size()), covariance, root_accuracy * variance);
 }
 
 Matrix efficacy_covariance(const Study& study, const JointFit& fit,
@@ -179,9 +177,14 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
     for (Eigen::Index i = 0; i < count; ++i)
       block(i, i) += std::pow(doubt.local_error * c.residuals.rows[size_t(i)].scale, 2);
   }
+  const auto root = [&](int axis) {
+    return covariance_root(turned.cols() / 3, fibre_covariance(study.model(0), doubt, axis),
+                           root_accuracy);
+  };
+  const Matrix in_plane = root(0), across = root(1);
   for (int axis = 0; axis < 3; ++axis) {
     const Matrix along = turned(Eigen::all, Eigen::seqN(axis, turned.cols() / 3, 3));
-    const Matrix part = along * fibre_covariance_root(study.model(0), doubt, axis);
+    const Matrix part = along * (axis == 1 ? across : in_plane);
     covariance += part * part.transpose();
   }
   covariance += efficacy_covariance(study, fit, influences, doubt);

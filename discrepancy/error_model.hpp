@@ -1,6 +1,7 @@
 #pragma once
 // How far residuals may be from zero although nothing is missing: noise, fibre directions, mesh.
 
+#include "discrepancy/covariance_root.hpp"
 #include "discrepancy/joint_fit.hpp"
 
 namespace genio {
@@ -30,9 +31,10 @@ Matrix noise_covariance(const Target& target, const Residuals& residuals, double
 Matrix fibre_influence(const Model& model, const FittedCondition& condition,
                        const Matrix& influence);
 
-/// Root (n x rank [m]) of the covariance of the fibres' displacements along x, y or z: two Gaussian
-/// fields, one alike left and right and one of each side's own.
-Matrix fibre_covariance_root(const Model& model, const ModelDoubt& doubt, int axis);
+/// Covariance of the fibres' displacements along x, y or z between the model's nodes [m^2]: two
+/// Gaussian fields, one alike left and right and one of each side's own. Along x as along z. Not to
+/// outlive the model.
+Covariance fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis);
 
 /// Covariance of all residuals, one condition's after another's, from muscles that do more or less
 /// for their force than the model has it, in all conditions alike.

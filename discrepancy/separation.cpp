@@ -114,6 +114,8 @@ double error_of_forces(const Condition& c) {
   return parts[parts.size() / 2];
 }
 
+bool better(const Experiment& a, const Experiment& b) { return a.log_odds > b.log_odds; }
+
 }  // namespace
 
 std::string Experiment::label() const {
@@ -143,16 +145,14 @@ std::vector<Experiment> experiments(const Explanation& one, const Explanation& o
   for (auto& [e, shape] : upright) measure(e, shape);
   if (a.has_weight() || b.has_weight()) {
     // Weight adds about as much to each: the best ones and rest will do.
-    std::stable_sort(upright.begin() + 1, upright.end(), [](const auto& x, const auto& y) {
-      return x.first.log_odds > y.first.log_odds;
-    });
+    std::stable_sort(upright.begin() + 1, upright.end(),
+                     [](const auto& x, const auto& y) { return better(x.first, y.first); });
     upright.resize(std::min(upright.size(), lying));
     for (const double pitch : {90.0, -90.0})
       for (auto& [e, shape] : upright) e.pitch = pitch, measure(e, shape);
   }
   std::erase_if(all, [](const Experiment& e) { return e.log_odds < 0; });
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& x, const auto& y) { return x.log_odds > y.log_odds; });
+  std::stable_sort(all.begin(), all.end(), better);
   if (all.size() > most) all.resize(most);
   return all;
 }

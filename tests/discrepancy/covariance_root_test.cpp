@@ -22,7 +22,7 @@ TEST(CovarianceRoot, LeavesNoMoreOfAVarianceThanItMay) {
     for (Eigen::Index j = 0; j < n; ++j) c(i, j) = alike(i, j);
   Eigen::Index fewer = n;
   for (const double least : {1e-6, 1e-3, 1e-1}) {
-    const Matrix root = covariance_root(n, alike, least);
+    const Matrix root = covariance_root(n, alike, least / alike(0, 0));
     EXPECT_LT((c - root * root.transpose()).cwiseAbs().maxCoeff(), least);
     EXPECT_LT(root.cols(), fewer);
     fewer = root.cols();
