@@ -9,6 +9,7 @@
 #include "discrepancy/base.hpp"
 #include "discrepancy/contest.hpp"
 #include "discrepancy/influence.hpp"
+#include "discrepancy/weighing.hpp"
 #include "inverse/posterior.hpp"
 
 namespace genio {
@@ -74,6 +75,7 @@ class Search {
     Contest c = contest(base_, influences, projection, effects_, options_);
     c.round.seconds_scoring += seconds;
     if (c.won) accept(c);
+    rank(c.round);
     d_.rounds.push_back(std::move(c.round));
     return c.won;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace genio {
 
@@ -39,6 +40,13 @@ size_t weigh(Round& round, const std::vector<size_t>& refitted) {
     if (r.probability > highest) highest = r.probability, best = i;
   }
   return best;
+}
+
+void rank(Round& round) {
+  std::stable_sort(
+      round.candidates.begin(), round.candidates.end(), [](const Ranked& a, const Ranked& b) {
+        return std::tie(a.probability, a.log_odds) > std::tie(b.probability, b.log_odds);
+      });
 }
 
 }  // namespace genio

@@ -15,4 +15,7 @@ std::vector<size_t> worth_a_refit(const std::vector<Candidate>& all,
 /// Returns the likeliest of these; 0 where there is none.
 size_t weigh(Round& round, const std::vector<size_t>& refitted);
 
+/// Puts the likeliest candidates first: by probability, those without one by their log odds.
+void rank(Round& round);
+
 }  // namespace genio

@@ -17,6 +17,18 @@ std::string gap_row(const char* what, const Gap& before, const Gap& after, doubl
       1e3 * before.rms, 1e3 * after.rms, before.rms / noise, after.rms / noise);
 }
 
+/// " N", and nothing where there is none.
+std::string after_number(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
+
+/// Along which axis a force pulls most.
+const char* towards(const Vec3& force) {
+  Eigen::Index axis = 0;
+  force.cwiseAbs().maxCoeff(&axis);
+  const char* const ways[][2] = {
+      {"forwards", "backwards"}, {"to the left", "to the right"}, {"down", "up"}};
+  return ways[axis][force[axis] > 0];
+}
+
 std::string effects_part(const Discovery& d) {
   std::string s;
   for (const NamedEffect& e : d.effects) {
@@ -58,9 +70,10 @@ std::string detectable_part(const Round& round) {
     }
     std::vector<std::string> from;
     for (const FreeNumber& n : r.candidate.strengths)
-      from.push_back(fmt::format(
-          "{} {} {:.3g} {}", n.name, r.candidate.strengths.size() > 1 ? "about" : "off by",
-          n.info.at(r.score.detectable * n.info.typical) - n.info.absent, n.info.unit));
+      from.push_back(fmt::format("{} {} {:.3g}{}", n.name,
+                                 r.candidate.strengths.size() > 1 ? "about" : "off by",
+                                 n.info.at(r.score.detectable * n.info.typical) - n.info.absent,
+                                 after_number(n.info.unit)));
     s += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(r.candidate.label()),
                      escaped(fmt::format("{}", fmt::join(from, " or "))));
   }
@@ -104,11 +117,11 @@ std::string discovery_page(const Discovery& d, const Observations& o, const std:
   if (d.hidden.log_evidence > 0)
     s += fmt::format(
         "<p>The smallest force field that would close the gap: {:.2g} N in all, about the {} "
-        "(x {:.0f}, y {:.0f}, z {:.0f} mm); together ({:.2g}, {:.2g}, {:.2g}) N backwards, to the "
-        "right and up; log evidence {:.1f} over none.</p>\n",
+        "(x {:.0f}, y {:.0f}, z {:.0f} mm); together ({:.2g}, {:.2g}, {:.2g}) N along x, y and z, "
+        "mostly {}; log evidence {:.1f} over none.</p>\n",
         d.hidden.total, d.hidden.region, 1e3 * d.hidden.centre[0], 1e3 * d.hidden.centre[1],
         1e3 * d.hidden.centre[2], d.hidden.resultant[0], d.hidden.resultant[1],
-        d.hidden.resultant[2], d.hidden.log_evidence);
+        d.hidden.resultant[2], towards(d.hidden.resultant), d.hidden.log_evidence);
   s += "<h2>What</h2>\n" + effects_part(d);
   s +=
       "<h2>How sure</h2>\n<p>Log odds against nothing being missing; dark: refitted in full, pale: "

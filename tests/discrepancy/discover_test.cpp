@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <tuple>
 
+#include "discrepancy/weighing.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {
@@ -42,6 +44,21 @@ TEST_F(Discover, NamesAnOpenJawAndTheGapShrinksAlsoWhereItDidNotLook) {
   EXPECT_TRUE(d.map_after.patches.empty());
   EXPECT_GT(d.hidden.log_evidence, 0);
   EXPECT_NEAR(d.model.effects.at("jaw_opening").at("angle"), 3, 0.3);
+}
+
+TEST(Ranking, PutsTheLikeliestFirstAndTheUnlikelyByTheirOdds) {
+  Round round;
+  for (const auto& [name, odds, probability] :
+       {std::tuple("scored best", 5.0, 0.0), std::tuple("second", 124.0, 0.06),
+        std::tuple("far behind", 9.0, 0.0), std::tuple("first", 127.0, 0.94)}) {
+    Ranked r;
+    r.candidate.effect = name, r.log_odds = odds, r.probability = probability;
+    round.candidates.push_back(std::move(r));
+  }
+  rank(round);
+  std::vector<std::string> order;
+  for (const Ranked& r : round.candidates) order.push_back(r.candidate.effect);
+  EXPECT_EQ(order, (std::vector<std::string>{"first", "second", "far behind", "scored best"}));
 }
 
 ParameterInfo between(double lower, double upper) {
