@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "bench/hidden_strength.hpp"
 #include "bench/random_muscles.hpp"
@@ -19,9 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double fibre_turn = 5;  // [degrees]
-constexpr double largest = 0.15;  // of a muscle's maximum
-constexpr int most_tries = 5;
+constexpr double fibre_turn = 5;    // [degrees]
+constexpr double largest = 0.15;    // of a muscle's maximum
+constexpr int most_tries = 5;       // places of an effect, among the same postures
+constexpr unsigned most_draws = 4;  // of postures, where a strength is out of reach
 
 std::vector<Forces_N> postures(const std::vector<Command>& muscles, int count,
                                std::mt19937& random) {
@@ -102,20 +104,22 @@ void write_target(const std::string& path, const std::vector<Measured>& points) 
                        1e3 * p.position[1], 1e3 * p.position[2], p.kind, p.slice);
 }
 
-}  // namespace
-
-Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
-                      const std::string& folder, const std::string& answer, KnownShapes& known) {
-  std::mt19937 random(what.seed);
-  const auto all = postures(muscle_commands(build_model(tongue, tongue.name), true),
-                            what.fitted + what.heldout, random);
-  const std::vector<Forces_N> fitted(all.begin(), all.begin() + what.fitted);
-  const auto failed = [&](const std::string& why) {
-    const Json j = {{"case", what.name}, {"failed", why}};
-    std::ofstream(answer) << j.dump(1) << "\n";
-    return j;
-  };
+/// What a data set is made of.
+struct Hidden {
+  unsigned seed;
+  std::vector<Forces_N> all;  ///< of the postures, those to fit first
   Changes changes;
+};
+
+/// None where the strength asked for is out of reach; `why` says of which effect.
+std::optional<Hidden> hide(const ModelDescription& tongue, const HiddenCase& what, unsigned seed,
+                           std::string& why) {
+  std::mt19937 random(seed);
+  Hidden h{seed,
+           postures(muscle_commands(build_model(tongue, tongue.name), true),
+                    what.fitted + what.heldout, random),
+           {}};
+  const std::vector<Forces_N> fitted(h.all.begin(), h.all.begin() + what.fitted);
   for (const std::string& name : what.effects) {
     HiddenChange c;
     double s = 0;
@@ -125,16 +129,37 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
       c = hidden_change(name, tongue, most_used(fitted, tongue), what.forces_known, random);
       found = find_amplitude(tongue, c, fitted, what, what.strength, s);
     }
-    if (!found) return failed(fmt::format("{}: strength {} is out of reach", name, what.strength));
-    changes.all.push_back(c), changes.s.push_back(s);
+    if (!found) {
+      why = fmt::format("{}: strength {} is out of reach", name, what.strength);
+      return std::nullopt;
+    }
+    h.changes.all.push_back(c), h.changes.s.push_back(s);
   }
-  ModelDescription coarse = changes.truth(turned(tongue, what.seed));
+  return h;
+}
+
+}  // namespace
+
+Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
+                      const std::string& folder, const std::string& answer, KnownShapes& known) {
+  const auto failed = [&](const std::string& why) {
+    const Json j = {{"case", what.name}, {"failed", why}};
+    std::ofstream(answer) << j.dump(1) << "\n";
+    return j;
+  };
+  std::string why;
+  std::optional<Hidden> hidden;
+  for (unsigned draw = 0; draw < most_draws && !hidden; ++draw)
+    hidden = hide(tongue, what, what.seed + 1000000 * draw, why);
+  if (!hidden) return failed(why);
+  const auto& [seed, all, changes] = *hidden;
+  ModelDescription coarse = changes.truth(turned(tongue, seed));
   const bool half = changes.symmetric();
   if (half) coarse = half_of(coarse, "truth");
   Model rough = build_model(coarse, "truth"), fine = build_model(refined(coarse), "fine truth");
   changes.by_hand(rough), changes.by_hand(fine);
   fs::create_directories(folder);
-  std::mt19937 noise(what.noise_seed * 7919 + what.seed);
+  std::mt19937 noise(what.noise_seed * 7919 + seed);
   std::normal_distribution<double> normal;
   std::string toml = fmt::format("noise_mm = {}\nnoise_correlation_mm = {}\n", 1e3 * what.noise,
                                  1e3 * what.correlation);
@@ -169,15 +194,16 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
   ModelDescription shipped = changes.shipped(tongue);
   shipped.name = "Tongue of " + what.name;
   write_description(shipped, folder + "/model");
-  Json hidden = Json::array();
+  Json told = Json::array();
   for (size_t i = 0; i < changes.all.size(); ++i)
-    hidden.push_back({{"effect", changes.all[i].effect},
-                      {"where", changes.all[i].where},
-                      {"in_library", changes.all[i].in_library},
-                      {"amplitude", changes.s[i]},
-                      {"parameters", changes.all[i].parameters(changes.s[i])}});
+    told.push_back({{"effect", changes.all[i].effect},
+                    {"where", changes.all[i].where},
+                    {"in_library", changes.all[i].in_library},
+                    {"amplitude", changes.s[i]},
+                    {"parameters", changes.all[i].parameters(changes.s[i])}});
   const Json j = {{"case", what.name},
-                  {"hidden", hidden},
+                  {"hidden", told},
+                  {"seed", seed},
                   {"strength", what.strength},
                   {"forces_known", what.forces_known},
                   {"surface", what.surface}};

@@ -24,7 +24,8 @@ struct HiddenCase {
 /// Makes the data set: FOLDER/model, FOLDER/observations.toml and its targets, and what is hidden
 /// in `answer` (a file beside the folder, which the workflow never opens). The truth is the tongue
 /// refined by eight with fibres turned by 5 degrees. Returns what the answer says, or why there is
-/// none (`failed`: strength out of reach, no equilibrium). `known` is looked up and added to.
+/// none (`failed`: strength out of reach among four draws of postures, no equilibrium). `known` is
+/// looked up and added to.
 Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
                       const std::string& folder, const std::string& answer, KnownShapes& known);
 
