@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
-#include "bench/benchmarks.hpp"
+#include "bench/figures/benchmarks.hpp"
 #include "cli/bench_discover.hpp"
 #include "cli/commands.hpp"
-#include "forward/model_file.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "report/verification_report.hpp"
 
 namespace genio::cli {
@@ -22,36 +23,37 @@ const std::string& needed(const std::string& value, const char* option, const st
 }
 
 int run(const BenchOptions& o) {
-  const auto tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const auto report = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
   bench::Json j;
   if (o.what == "peer") {
-    j = bench::peer(needed(o.data, "--data", o.what), tell);
+    j = bench::peer(needed(o.data, "--data", o.what), report);
   } else if (o.what == "grenoble") {
-    j = bench::grenoble(needed(o.data, "--data", o.what), tell);
+    j = bench::grenoble(needed(o.data, "--data", o.what), report);
   } else if (o.what == "grenoble-gravity") {
-    j = bench::grenoble_gravity(needed(o.data, "--data", o.what), tell);
+    j = bench::grenoble_gravity(needed(o.data, "--data", o.what), report);
   } else if (o.what == "discover") {
     j = bench_discover(o.model, o.out.empty() ? "bench-discover" : o.out, o.sample, o.seed,
                        o.threads, o.only_data, o.only);
   } else if (o.what == "forward") {
-    j = bench::forward(tell);
+    j = bench::forward(report);
   } else if (o.what == "verification") {
-    j = bench::verification(o.data, tell);
+    j = bench::verification(o.data, report);
     if (!o.out.empty()) write_verification(j, o.out);
   } else if (o.what == "dynamic") {
-    j = bench::dynamic(o.model, o.data, tell);
+    j = bench::dynamic(o.model, o.data, report);
   } else {
     const Model m = read_model(o.model);
     if (o.what == "inverse") {
-      j = bench::inversion_cost(m, tell);
-      j.update(bench::blind(read_description(o.model), o.sample > 0 ? o.sample : 20, tell));
-    } else if (o.what == "reach") j = bench::reach(m, o.sample > 0 ? o.sample : 200, tell);
-    else if (o.what == "gesture") j = bench::gesture(m, tell);
-    else if (o.what == "robustness") j = bench::robustness(m, o.sample > 0 ? o.sample : 500, tell);
+      j = bench::inversion_cost(m, report);
+      j.update(bench::blind(read_description(o.model), o.sample > 0 ? o.sample : 20, report));
+    } else if (o.what == "reach") j = bench::reach(m, o.sample > 0 ? o.sample : 200, report);
+    else if (o.what == "gesture") j = bench::gesture(m, report);
+    else if (o.what == "robustness")
+      j = bench::robustness(m, o.sample > 0 ? o.sample : 500, report);
     else if (o.what == "service") j = bench::service(m);
     else
       j = bench::ultrasound(m, needed(o.target, "--target", o.what),
-                            needed(o.palate, "--palate", o.what), o.all, tell);
+                            needed(o.palate, "--palate", o.what), o.all, report);
   }
   fmt::print("{}\n", o.json ? j.dump() : j.dump(2));
   return done;

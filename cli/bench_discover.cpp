@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <random>
 
-#include "bench/discover_table.hpp"
+#include "bench/figures/discover_table.hpp"
 #include "cli/json_lines.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/workers.hpp"

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
 #include "cli/motion.hpp"
-#include "forward/model_file.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 
 namespace genio::cli {
 

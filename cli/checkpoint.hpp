@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "forward/types.hpp"
+#include "forward/base/types.hpp"
 
 namespace genio::cli {
 

@@ -1,10 +1,11 @@
-#include "discrepancy/discover.hpp"
+#include "discrepancy/contest/discover.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 
 #include "cli/commands.hpp"
+#include "forward/model/build_model.hpp"
 #include "report/discovery_page.hpp"
 #include "report/discovery_pictures.hpp"
 #include "report/discovery_report.hpp"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bench/experiments/seed_suite.hpp"
 #include "cli/motion.hpp"
-#include "forward/equilibrium.hpp"
-#include "forward/model_file.hpp"
+#include "forward/model/model_file.hpp"
+#include "forward/statics/equilibrium.hpp"
 #include "report/motion_report.hpp"
-#include "report/seed_suite.hpp"
 
 namespace genio::cli {
 namespace {

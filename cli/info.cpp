@@ -4,8 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
-#include "forward/import_grenoble.hpp"
-#include "forward/model_file.hpp"
+#include "forward/anatomy/import_grenoble.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 
 namespace genio::cli {
 

@@ -5,8 +5,10 @@
 #include "cli/progress_line.hpp"
 #include "cli/result_log.hpp"
 #include "cli/together.hpp"
-#include "forward/model_file.hpp"
-#include "inverse/frame_target.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
+#include "inverse/prior/prior_file.hpp"
+#include "inverse/recording/frame_target.hpp"
 #include "report/run_summary.hpp"
 
 namespace genio::cli {
@@ -45,7 +47,7 @@ Prior checked_prior(const Model& model, const InvertOptions& o) {
   if (o.prior.empty()) return {};
   const Prior prior = read_prior(o.prior);
   try {
-    prior_terms(prior, unknowns(model, prior, o.bilateral));
+    prior_terms(prior, unknowns_of(model, prior, o.bilateral));
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", o.prior, e.what()));
   }

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "forward/types.hpp"
+#include "forward/base/types.hpp"
 #include "report/svg.hpp"
 
 namespace genio::cli {

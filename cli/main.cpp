@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "forward/types.hpp"
+#include "forward/base/types.hpp"
 
 int main(int argc, char** argv) {
   using namespace genio::cli;

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "inverse/frame_target.hpp"
+#include "inverse/recording/frame_target.hpp"
 
 namespace genio::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "forward/model.hpp"
-#include "inverse/contour_file.hpp"
+#include "forward/model/model.hpp"
+#include "inverse/recording/contour_file.hpp"
 #include "report/answer_report.hpp"
 
 namespace genio::cli {

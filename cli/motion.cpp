@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "forward/dynamics.hpp"
+#include "forward/motion/dynamics.hpp"
 #include "report/motion_report.hpp"
 
 namespace genio::cli {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
-#include "forward/model.hpp"
+#include "forward/model/model.hpp"
 
 namespace genio::cli {
 

@@ -2,21 +2,21 @@
 
 #include <cmath>
 
-#include "inverse/chained_prior.hpp"
+#include "inverse/sequence/chained_prior.hpp"
 #include "report/motion_report.hpp"
 
 namespace genio::cli {
 namespace {
 
 /// The unknowns of an earlier answer; empty where they are not all told.
-Vector told_unknowns(const nlohmann::json& answer, const std::vector<Command>& commands) {
+Vector told_unknowns(const nlohmann::json& answer, const std::vector<Unknown>& commands) {
   if (answer.value("status", "") != "converged") return {};
   Vector z(Eigen::Index(commands.size()));
   for (size_t i = 0; i < commands.size(); ++i) {
     const std::string& name = commands[i].name;
     if (answer["activation"].contains(name)) z[Eigen::Index(i)] = answer["activation"][name];
     else if (answer["estimated"].contains(name))
-      z[Eigen::Index(i)] = commands[i].unknown(answer["estimated"][name]["value"].get<double>());
+      z[Eigen::Index(i)] = commands[i].z_of(answer["estimated"][name]["value"].get<double>());
     else return {};
   }
   return z;
@@ -53,7 +53,8 @@ void answer_frames(const Model& model, const std::vector<Frame>& frames, const O
       Prior prior = o.prior;
       if (&frame == &frames.front() && before.is_object())
         infer.start = told_unknowns(
-            before, unknowns(model, prior, infer.bilateral.value_or(frame.target.midsagittal())));
+            before,
+            unknowns_of(model, prior, infer.bilateral.value_or(frame.target.midsagittal())));
       if (o.sequence && infer.start.size() > 0) {
         prior.before = Prior::Before{infer.start, walk_sd(prior, last_time, frame.contour.time_s)};
       }

@@ -3,7 +3,7 @@
 
 #include "cli/measured.hpp"
 #include "cli/workers.hpp"
-#include "inverse/multi_start.hpp"
+#include "inverse/search/multi_start.hpp"
 
 namespace genio::cli {
 

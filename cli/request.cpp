@@ -5,7 +5,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/measured.hpp"
-#include "forward/model_file.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "server/client.hpp"
 
 namespace genio::cli {
@@ -41,12 +42,12 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
   v.title = frame_title(frame);
   v.status = r.status, v.message = r.message, v.verdict = r.verdict;
   for (size_t i = 0; i < r.muscle.size(); ++i)
-    v.commands.push_back({.name = r.muscle[i],
-                          .force = r.force_N[i],
-                          .max_force = r.max_force_N[i],
-                          .sd = r.sd_N[i],
-                          .low = r.low_N[i],
-                          .high = r.high_N[i]});
+    v.muscles.push_back({.name = r.muscle[i],
+                         .best = r.force_N[i],
+                         .maximum = r.max_force_N[i],
+                         .sd = r.sd_N[i],
+                         .low = r.low_N[i],
+                         .high = r.high_N[i]});
   for (const auto& group : r.unidentified) {
     std::vector<std::string> names(1);
     for (char c : group)
@@ -58,9 +59,9 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
   v.weight = r.weight;
   const size_t muscles = r.muscle.size();
   for (size_t k = 0; k < r.alternative_weight.size(); ++k) {
-    Alternative other{r.alternative_weight[k], v.commands, 1e-3 * r.alternative_rms_mm[k], {}};
+    Alternative other{r.alternative_weight[k], v.muscles, 1e-3 * r.alternative_rms_mm[k], {}};
     for (size_t i = 0; i < muscles && k * muscles + i < r.alternative_force_N.size(); ++i)
-      other.commands[i].force = r.alternative_force_N[k * muscles + i];
+      other.muscles[i].best = r.alternative_force_N[k * muscles + i];
     v.alternatives.push_back(std::move(other));
   }
   v.iterations = r.ipopt_iterations, v.factorizations = r.factorizations, v.wall_s = r.wall_s;

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "forward/types.hpp"
+#include "forward/base/types.hpp"
 #include "report/svg.hpp"
 
 namespace genio::cli {

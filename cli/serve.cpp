@@ -4,7 +4,8 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "forward/model_file.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "server/hub.hpp"
 #include "server/link.hpp"
 #include "server/service.hpp"

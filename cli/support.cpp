@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "cli/commands.hpp"
-#include "forward/types.hpp"
+#include "forward/base/types.hpp"
 
 namespace genio::cli {
 

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "cli/checkpoint.hpp"
-#include "inverse/motion_inversion.hpp"
-#include "inverse/sequence.hpp"
+#include "inverse/sequence/motion_inversion.hpp"
+#include "inverse/sequence/sequence.hpp"
 #include "report/motion_report.hpp"
 #include "report/svg.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 constexpr double lead = 0.1;  // of a movement before its first frame [s]
 
 /// One line of progress, in place on a terminal.
-void tell(double part, const std::string& what) {
+void progress(double part, const std::string& what) {
   const bool terminal = isatty(STDERR_FILENO);
   fmt::print(stderr, "{}{:3.0f} % {}{}", terminal ? "\r" : "", 100 * part, what,
              terminal && part < 1 ? "          " : "\n");
@@ -34,17 +34,17 @@ void send_frame(const Model& model, const Frame& frame, const Answer& answer,
 }
 
 /// The commands at a time between knots, spread and intervals linear too.
-std::vector<CommandEstimate> commands_at(const MotionAnswer& a, double time) {
+std::vector<Estimate> commands_at(const MotionAnswer& a, double time) {
   const auto after =
       size_t(std::lower_bound(a.knots_s.begin(), a.knots_s.end(), time - 1e-9) - a.knots_s.begin());
   const size_t j = std::clamp<size_t>(after, 1, a.knots_s.size() - 1);
   const double s =
       std::clamp((time - a.knots_s[j - 1]) / (a.knots_s[j] - a.knots_s[j - 1]), 0., 1.);
-  std::vector<CommandEstimate> result = a.commands[j];
+  std::vector<Estimate> result = a.estimates[j];
   for (size_t c = 0; c < result.size(); ++c) {
-    const CommandEstimate& before = a.commands[j - 1][c];
+    const Estimate& before = a.estimates[j - 1][c];
     const auto between = [&](double from, double& to) { to = (1 - s) * from + s * to; };
-    between(before.force, result[c].force), between(before.sd, result[c].sd);
+    between(before.best, result[c].best), between(before.sd, result[c].sd);
     between(before.low, result[c].low), between(before.high, result[c].high);
     between(before.information_bits, result[c].information_bits);
   }
@@ -61,17 +61,17 @@ Answer answer_at(const MotionAnswer& a, size_t frame) {
   result.shape = f.shape, result.residuals = f.residuals;
   result.rms = f.residuals.rms, result.max = f.residuals.max;
   result.chi2_per_dof = a.chi2_per_dof;
-  for (CommandEstimate& e : commands_at(a, f.time_s))
-    (e.unit == "N" ? result.commands : result.along).push_back(std::move(e));
+  for (Estimate& e : commands_at(a, f.time_s))
+    (e.unit == "N" ? result.muscles : result.others).push_back(std::move(e));
   return result;
 }
 
 std::string commands_csv(const MotionAnswer& a) {
   std::string text = "time_s";
-  for (const auto& c : a.commands.front()) text += "," + c.name + (c.unit == "N" ? "_N" : "");
+  for (const auto& c : a.estimates.front()) text += "," + c.name + (c.unit == "N" ? "_N" : "");
   for (size_t j = 0; j < a.knots_s.size(); ++j) {
     text += fmt::format("\n{:.6f}", a.knots_s[j]);
-    for (const auto& c : a.commands[j]) text += fmt::format(",{:.6g}", c.force);
+    for (const auto& c : a.estimates[j]) text += fmt::format(",{:.6g}", c.best);
   }
   return text + "\n";
 }
@@ -91,13 +91,13 @@ void move(const Model& model, const std::vector<Frame>& frames, const OfflineOpt
   MotionOptions options;
   options.time.step = how.step_s, options.knot_s = how.knot_s, options.from_rest = how.from_rest;
   options.infer = o.infer;
-  options.progress = tell;
+  options.progress = progress;
   Checkpoint checkpoint(o.out, how.resume);
   options.known = checkpoint.known();
   options.checkpoint = [&](const std::vector<Vector>& z) { checkpoint.keep(z); };
   InferWorkspace ws(model);
   const MotionAnswer a = infer_motion(model, measured, o.prior, ws, options);
-  tell(1, fmt::format("{} simulations, {:.1f} s", a.simulations, a.wall_s));
+  progress(1, fmt::format("{} simulations, {:.1f} s", a.simulations, a.wall_s));
   size_t k = 0;
   for (const Frame& f : frames)
     send_frame(model, f, f.target.empty() ? Answer() : answer_at(a, k++), o, send);
@@ -114,7 +114,7 @@ void answer_together(const Model& model, const std::vector<Frame>& frames, const
   if (how.dynamic) return move(model, frames, o, how, send);
   std::vector<SequenceFrame> sequence;
   for (const Frame& f : frames) sequence.push_back({f.target, f.contour.time_s});
-  SequenceOptions options{o.infer, o.starts, how.threads, {}, {}, tell};
+  SequenceOptions options{o.infer, o.starts, how.threads, {}, {}, progress};
   Checkpoint checkpoint(o.out, how.resume);
   options.known = checkpoint.known();
   options.checkpoint = [&](const std::vector<Vector>& z) { checkpoint.keep(z); };

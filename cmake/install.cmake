@@ -1,13 +1,8 @@
 # `cmake --install`: program, libraries, headers, data, and a package for find_package(genio).
 include(CMakePackageConfigHelpers)
 install(TARGETS genio RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS genio_forward genio_inverse genio_discrepancy genio_messages genio_server genio_report
-        EXPORT genioTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS genio_messages EXPORT genioTargets)
 install(EXPORT genioTargets NAMESPACE genio:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/genio)
-foreach(room forward inverse discrepancy server report)
-  install(DIRECTORY ${room}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/genio/${room}
-          FILES_MATCHING PATTERN "*.hpp")
-endforeach()
 install(DIRECTORY data/generic DESTINATION ${CMAKE_INSTALL_DATADIR}/genio)
 configure_package_config_file(cmake/genioConfig.cmake.in ${PROJECT_BINARY_DIR}/genioConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/genio)

@@ -1,8 +1,8 @@
-# One library a room: genio_room(forward a.cpp b.cpp) makes genio_forward, alias genio::forward.
+# One library a room.
 include(GNUInstallDirs)
 
 add_library(genio_flags INTERFACE)
-target_compile_options(genio_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi
+target_compile_options(genio_flags INTERFACE -fPIC -pthread -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi
                        -Wno-maybe-uninitialized -Wno-restrict)  # GCC 12 bugs 105593, 105329
 target_compile_definitions(genio_flags INTERFACE GENIO_VERSION="${PROJECT_VERSION}")
 if(GENIO_WERROR)
@@ -18,12 +18,61 @@ if(GENIO_SANITIZE)
   target_link_options(genio_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# Eigen aligns by the processor it is compiled for; whoever links this must align alike.
+set(genio_align EIGEN_MAX_ALIGN_BYTES=64)
+target_compile_definitions(genio_flags INTERFACE ${genio_align})
+
+# Headers read once for all files: genio_precompiled(TARGET genio_pch).
+foreach(kind pch pch_program pch_tests)
+  file(WRITE ${PROJECT_BINARY_DIR}/${kind}.cpp "")
+  add_library(genio_${kind} OBJECT EXCLUDE_FROM_ALL ${PROJECT_BINARY_DIR}/${kind}.cpp)
+  target_link_libraries(genio_${kind} PRIVATE genio_flags Eigen3::Eigen fmt::fmt)
+  target_include_directories(genio_${kind} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_precompile_headers(genio_${kind} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/${kind}.hpp)
+endforeach()
+target_link_libraries(genio_pch_program PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
+function(genio_precompiled target kind)
+  target_precompile_headers(${target} REUSE_FROM genio_${kind})
+endfunction()
+
+# genio_room(forward
+#   ROOMS base geometry ...       sub-rooms, lowest first: a file may include its own and lower ones
+#   HEADERS base/types ...        what other rooms may include; these are installed
+#   PUBLIC ... PRIVATE ...        libraries and rooms it links
+#   INTERNAL)                     not installed
+# Sources are every .cpp of the sub-rooms (of the room's own folder where there are none), so that a
+# new file needs no line here. check_rooms.py holds the includes against what is said here.
 function(genio_room name)
-  add_library(genio_${name} STATIC ${ARGN})
+  cmake_parse_arguments(room "INTERNAL" "" "ROOMS;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  foreach(sub ${room_ROOMS})
+    list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${sub}/*.cpp)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  add_library(genio_${name} STATIC ${sources})
   add_library(genio::${name} ALIAS genio_${name})
   set_target_properties(genio_${name} PROPERTIES EXPORT_NAME ${name})
-  target_link_libraries(genio_${name} PRIVATE $<BUILD_INTERFACE:genio_flags>)
+  target_link_libraries(genio_${name} PUBLIC ${room_PUBLIC}
+                        PRIVATE ${room_PRIVATE} $<BUILD_INTERFACE:genio_flags>)
   target_compile_features(genio_${name} PUBLIC cxx_std_20)
+  genio_precompiled(genio_${name} pch)
   target_include_directories(genio_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/genio>)
+  genio_describe(${name} "${room_ROOMS}" "${room_HEADERS}" "${room_PUBLIC};${room_PRIVATE}")
+  if(room_INTERNAL)
+    return()
+  endif()
+  install(TARGETS genio_${name} EXPORT genioTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  foreach(header ${room_HEADERS})
+    get_filename_component(folder ${header} DIRECTORY)
+    install(FILES ${header}.hpp
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/genio/${name}/${folder})
+  endforeach()
+endfunction()
+
+# One line a room in build/rooms.txt: what check_rooms.py reads.
+function(genio_describe name rooms headers links)
+  set(line "${name}|${rooms}|${headers}|${links}")
+  string(REPLACE ";" " " line "${line}")
+  set_property(GLOBAL APPEND_STRING PROPERTY GENIO_ROOMS "${line}\n")
 endfunction()

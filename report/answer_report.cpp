@@ -13,7 +13,7 @@ AnswerView view_of(const Model& model, const Target& target, const Answer& a,
   AnswerView v;
   v.title = title;
   v.status = to_string(a.status), v.message = a.message, v.verdict = to_string(a.verdict);
-  v.commands = a.commands, v.along = a.along, v.trade_offs = a.unidentified;
+  v.muscles = a.muscles, v.others = a.others, v.trade_offs = a.unidentified;
   for (const TradeOff& trade : a.unidentified) v.unidentified.push_back(names(trade));
   v.weight = a.weight, v.alternatives = a.alternatives, v.outliers = a.residuals.outliers;
   v.rms_mm = 1e3 * a.rms, v.max_mm = 1e3 * a.max, v.chi2_per_dof = a.chi2_per_dof;
@@ -31,17 +31,17 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation", "information_bits",
                           "bound_multipliers", "estimated"})
     j[key] = nlohmann::json::object();
-  for (const auto& c : v.commands) {
-    j["forces_N"][c.name] = c.force;
+  for (const auto& c : v.muscles) {
+    j["forces_N"][c.name] = c.best;
     j["sd_N"][c.name] = c.sd;
     j["interval90_N"][c.name] = {c.low, c.high};
-    j["activation"][c.name] = c.force / c.max_force;
+    j["activation"][c.name] = c.best / c.maximum;
     j["information_bits"][c.name] = c.information_bits;
     if (c.multiplier > 0) j["bound_multipliers"][c.name] = c.multiplier;
   }
-  for (const auto& c : v.along)
+  for (const auto& c : v.others)
     j["estimated"][c.name] = {
-        {"value", c.force}, {"unit", c.unit}, {"sd", c.sd}, {"interval90", {c.low, c.high}}};
+        {"value", c.best}, {"unit", c.unit}, {"sd", c.sd}, {"interval90", {c.low, c.high}}};
   j["rms_mm"] = v.rms_mm, j["max_mm"] = v.max_mm, j["chi2_per_dof"] = v.chi2_per_dof;
   j["unidentified"] = v.unidentified;
   j["trade_offs"] = nlohmann::json::array();
@@ -54,7 +54,7 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   j["alternatives"] = nlohmann::json::array();
   for (const Alternative& other : v.alternatives) {
     nlohmann::json one = {{"weight", other.weight}, {"rms_mm", 1e3 * other.rms}};
-    for (const auto& c : other.commands) one["forces_N"][c.name] = c.force;
+    for (const auto& c : other.muscles) one["forces_N"][c.name] = c.best;
     j["alternatives"].push_back(std::move(one));
   }
   j["outliers"] = v.outliers;
@@ -65,16 +65,16 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
 
 std::string to_table(const AnswerView& v) {
   std::string out;
-  if (!v.commands.empty())
+  if (!v.muscles.empty())
     out += fmt::format("{:<8} {:>9} {:>8} {:>9}   {}\n", "muscle", "force N", "% max", "+- sd N",
                        "90 % interval N");
-  for (const auto& c : v.commands)
-    out += fmt::format("{:<8} {:9.2f} {:8.1f} {:9.2f}   {:.2f} to {:.2f}\n", c.name, c.force,
-                       100 * c.force / c.max_force, c.sd, c.low, c.high);
-  for (const auto& c : v.along)
-    out += fmt::format("{:<18} {:.3g} +- {:.2g} {}   {:.3g} to {:.3g}\n", c.name, c.force, c.sd,
+  for (const auto& c : v.muscles)
+    out += fmt::format("{:<8} {:9.2f} {:8.1f} {:9.2f}   {:.2f} to {:.2f}\n", c.name, c.best,
+                       100 * c.best / c.maximum, c.sd, c.low, c.high);
+  for (const auto& c : v.others)
+    out += fmt::format("{:<18} {:.3g} +- {:.2g} {}   {:.3g} to {:.3g}\n", c.name, c.best, c.sd,
                        c.unit, c.low, c.high);
-  if (!v.commands.empty())
+  if (!v.muscles.empty())
     out += fmt::format("fit      RMS {:.2f} mm, max {:.2f} mm, chi2/dof {:.2f}\n", v.rms_mm,
                        v.max_mm, v.chi2_per_dof);
   for (const auto& group : v.unidentified)
@@ -84,8 +84,8 @@ std::string to_table(const AnswerView& v) {
   for (const auto& other : v.alternatives) {
     out += fmt::format("also     weight {:.2f} (this one {:.2f}), RMS {:.2f} mm:", other.weight,
                        v.weight, 1e3 * other.rms);
-    for (const auto& c : other.commands)
-      if (c.force > 0.01 * c.max_force) out += fmt::format(" {} {:.2f} N", c.name, c.force);
+    for (const auto& c : other.muscles)
+      if (c.best > 0.01 * c.maximum) out += fmt::format(" {} {:.2f} N", c.name, c.best);
     out += "\n";
   }
   if (v.outliers > 0)
@@ -141,9 +141,9 @@ void draw_plane(Svg& svg, const Model& model, const AnswerView& v) {
 }
 
 void draw_forces(Svg& svg, const AnswerView& v) {
-  const size_t n = std::max<size_t>(1, v.commands.size());
+  const size_t n = std::max<size_t>(1, v.muscles.size());
   double most = 0.05;
-  for (const auto& c : v.commands) most = std::max(most, std::min(1.0, c.high / c.max_force));
+  for (const auto& c : v.muscles) most = std::max(most, std::min(1.0, c.high / c.maximum));
   const Axes axes{0, 100 * most * 1.05, 0, double(n), 700, 56, 330, 450};
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
   const double step = most > 0.5 ? 20 : most > 0.2 ? 10 : most > 0.1 ? 5 : 1;
@@ -153,17 +153,17 @@ void draw_forces(Svg& svg, const AnswerView& v) {
   }
   svg.text(axes.left + axes.width / 2, axes.top + axes.height + 34,
            "force, % of maximum; bar: 90 % interval", 12, "middle", "#555");
-  for (size_t i = 0; i < v.commands.size(); ++i) {
-    const auto& c = v.commands[i];
+  for (size_t i = 0; i < v.muscles.size(); ++i) {
+    const auto& c = v.muscles[i];
     const double y0 = axes.py(double(n - i) - 0.2), y1 = axes.py(double(n - i) - 0.8),
                  mid = (y0 + y1) / 2;
-    const auto px = [&](double force) { return axes.px(100 * force / c.max_force); };
-    svg.rect(axes.left, y0, px(c.force) - axes.left, y1 - y0, {"none", blue});
+    const auto px = [&](double force) { return axes.px(100 * force / c.maximum); };
+    svg.rect(axes.left, y0, px(c.best) - axes.left, y1 - y0, {"none", blue});
     svg.line(px(c.low), mid, px(c.high), mid, {"#222", "none", 1.6});
     for (double end : {c.low, c.high})
       svg.line(px(end), mid - 4, px(end), mid + 4, {"#222", "none", 1.6});
     svg.text(axes.left - 8, mid + 4, c.name, 12, "end");
-    svg.text(axes.left + axes.width + 8, mid + 4, fmt::format("{:.2f} N", c.force), 11, "start");
+    svg.text(axes.left + axes.width + 8, mid + 4, fmt::format("{:.2f} N", c.best), 11, "start");
   }
 }
 
@@ -190,9 +190,9 @@ void write_report(const Model& model, const AnswerView& v, int frame, const std:
   write_png(base + ".png", picture, 1.5);
   write_text(base + ".json", to_json(v, frame).dump(2) + "\n");
   std::string csv = "muscle,force_N,max_force_N,sd_N,low90_N,high90_N\n";
-  for (const auto& c : v.commands)
-    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", c.name, c.force, c.max_force,
-                       c.sd, c.low, c.high);
+  for (const auto& c : v.muscles)
+    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", c.name, c.best, c.maximum, c.sd,
+                       c.low, c.high);
   write_text(base + ".csv", csv);
 }
 

@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "inverse/infer.hpp"
+#include "inverse/shape/infer.hpp"
 
 namespace genio {
 
 /// What a report shows; filled from an Answer or from a reply over LCM.
 struct AnswerView {
   std::string title, status, message, verdict;
-  std::vector<CommandEstimate> commands;
-  std::vector<CommandEstimate> along;  ///< parameters and head pose
+  std::vector<Estimate> muscles;
+  std::vector<Estimate> others; ///< parameters and head pose
   std::vector<std::vector<std::string>> unidentified;
   std::vector<TradeOff> trade_offs;  ///< of each unidentified group
   double weight = 1;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "discrepancy/discovery.hpp"
+#include "discrepancy/contest/discovery.hpp"
 
 namespace genio {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "discrepancy/discovery.hpp"
+#include "discrepancy/contest/discovery.hpp"
 
 namespace genio {
 

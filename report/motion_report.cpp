@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "forward/vtk_io.hpp"
+#include "forward/geometry/vtk_io.hpp"
 
 namespace genio {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "forward/dynamics.hpp"
+#include "forward/motion/dynamics.hpp"
 
 namespace genio {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "inverse/tongue_line.hpp"
+#include "inverse/target/tongue_line.hpp"
 #include "report/svg.hpp"
 
 namespace genio {

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "forward/model.hpp"
+#include "forward/model/model.hpp"
 
 namespace genio {
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "forward/types.hpp"
+#include "forward/base/types.hpp"
 
 namespace genio {
 namespace {

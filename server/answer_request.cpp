@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "inverse/frame_target.hpp"
-#include "inverse/multi_start.hpp"
+#include "inverse/recording/frame_target.hpp"
+#include "inverse/search/multi_start.hpp"
 #include "server/service.hpp"
 
 namespace genio {
@@ -44,10 +44,10 @@ ContourFrame frame_of(const shape_request_t& r) {
 }
 
 void fill(const Model& model, const Answer& a, command_reply_t& reply) {
-  for (const auto& c : a.commands) {
+  for (const auto& c : a.muscles) {
     reply.muscle.push_back(c.name);
-    reply.force_N.push_back(c.force);
-    reply.max_force_N.push_back(c.max_force);
+    reply.force_N.push_back(c.best);
+    reply.max_force_N.push_back(c.maximum);
     reply.sd_N.push_back(c.sd);
     reply.low_N.push_back(c.low);
     reply.high_N.push_back(c.high);
@@ -67,7 +67,7 @@ void fill(const Model& model, const Answer& a, command_reply_t& reply) {
   for (const Alternative& other : a.alternatives) {
     reply.alternative_weight.push_back(other.weight);
     reply.alternative_rms_mm.push_back(1e3 * other.rms);
-    for (const auto& c : other.commands) reply.alternative_force_N.push_back(c.force);
+    for (const auto& c : other.muscles) reply.alternative_force_N.push_back(c.best);
   }
   reply.alternative_count = int(reply.alternative_weight.size());
   reply.alternative_force_count = int(reply.alternative_force_N.size());

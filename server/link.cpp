@@ -12,7 +12,7 @@
 #include <regex>
 #include <thread>
 
-#include "forward/types.hpp"
+#include "forward/base/types.hpp"
 
 namespace genio {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "forward/model.hpp"
+#include "forward/model/model.hpp"
 #include "server/wire.hpp"
 
 namespace genio {

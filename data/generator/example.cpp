@@ -6,9 +6,10 @@
 #include <cstdio>
 #include <random>
 
-#include "forward/equilibrium.hpp"
-#include "forward/model_file.hpp"
-#include "inverse/target.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
+#include "forward/statics/equilibrium.hpp"
+#include "inverse/target/target.hpp"
 
 int main(int argc, char** argv) {
   using namespace genio;

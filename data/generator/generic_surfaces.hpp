@@ -1,5 +1,5 @@
 #pragma once
-#include "forward/triangle_surface.hpp"
+#include "forward/geometry/triangle_surface.hpp"
 
 namespace genio::generic {
 

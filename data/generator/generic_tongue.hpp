@@ -1,5 +1,5 @@
 #pragma once
-#include "forward/model_file.hpp"
+#include "forward/model/model_file.hpp"
 
 namespace genio::generic {
 

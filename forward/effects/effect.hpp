@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "forward/stiffness.hpp"
-#include "forward/types.hpp"
+#include "forward/algebra/stiffness.hpp"
+#include "forward/base/types.hpp"
 
 namespace genio {
 

@@ -1,6 +1,6 @@
 // A root of few columns has the covariance to the accuracy asked for.
 
-#include "discrepancy/covariance_root.hpp"
+#include "discrepancy/errors/covariance_root.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,13 @@
 // The whole workflow on data of the model's own mesh, where no mesh error has to be taken off.
 
-#include "discrepancy/discover.hpp"
+#include "discrepancy/contest/discover.hpp"
 
 #include <cmath>
 #include <fstream>
 #include <tuple>
 
-#include "discrepancy/weighing.hpp"
+#include "discrepancy/contest/weighing.hpp"
+#include "forward/model/build_model.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {

@@ -1,11 +1,13 @@
 // How far residuals may be from zero although nothing is missing.
 
-#include "discrepancy/error_model.hpp"
+#include "discrepancy/errors/error_model.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "discrepancy/errors.hpp"
+#include "discrepancy/errors/errors.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/target/comparison.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {

@@ -1,11 +1,13 @@
 // What a model may lack is said by the effects themselves.
 
-#include "forward/hypothesis.hpp"
+#include "forward/model/hypothesis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "forward/model/build_effects.hpp"
+#include "forward/model/build_model.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

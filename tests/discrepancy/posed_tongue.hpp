@@ -1,9 +1,10 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "discrepancy/discover.hpp"
-#include "discrepancy/influence.hpp"
-#include "forward/hypothesis.hpp"
+#include "discrepancy/conditions/influence.hpp"
+#include "discrepancy/contest/discover.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/hypothesis.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio::test {

@@ -1,6 +1,6 @@
-#include "discrepancy/refinement.hpp"
+#include "discrepancy/errors/refinement.hpp"
 
-#include "discrepancy/symmetric_part.hpp"
+#include "discrepancy/candidates/symmetric_part.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {

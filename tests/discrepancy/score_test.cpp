@@ -1,11 +1,13 @@
 // Signatures are derivatives of what is measured; scores see what they should and nothing else.
 
-#include "discrepancy/score.hpp"
+#include "discrepancy/candidates/score.hpp"
 
 #include <cmath>
 
-#include "discrepancy/error_model.hpp"
-#include "discrepancy/response.hpp"
+#include "discrepancy/candidates/response.hpp"
+#include "discrepancy/errors/error_model.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/target/comparison.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {

@@ -1,7 +1,8 @@
 // Accounts of the same data are told apart by postures in which they differ.
 
-#include "discrepancy/separation.hpp"
+#include "discrepancy/contest/separation.hpp"
 
+#include "inverse/target/head_pose.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {

@@ -1,10 +1,10 @@
 // The block that CalculiX, FEBio, deal.II and FEniCSx were run on.
 
-#include "bench/block.hpp"
+#include "bench/problems/block.hpp"
 
 #include <gtest/gtest.h>
 
-#include "forward/equilibrium.hpp"
+#include "forward/statics/equilibrium.hpp"
 
 namespace genio {
 namespace {

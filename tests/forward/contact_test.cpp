@@ -1,10 +1,11 @@
-#include "forward/effects/contact.hpp"
+#include "forward/effects/surroundings/contact.hpp"
 
 #include <gtest/gtest.h>
 
-#include "forward/closest_point.hpp"
-#include "forward/distance_field.hpp"
-#include "forward/equilibrium.hpp"
+#include "forward/geometry/closest_point.hpp"
+#include "forward/geometry/distance_field.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/statics/equilibrium.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

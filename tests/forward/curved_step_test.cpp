@@ -1,8 +1,8 @@
-#include "forward/curved_step.hpp"
+#include "forward/statics/curved_step.hpp"
 
 #include <gtest/gtest.h>
 
-#include "forward/box_mesh.hpp"
+#include "forward/geometry/box_mesh.hpp"
 
 namespace genio {
 namespace {

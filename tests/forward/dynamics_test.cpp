@@ -1,6 +1,6 @@
 // Motion: order in time, energy, waves, damping, contact, commands.
 
-#include "forward/dynamics.hpp"
+#include "forward/motion/dynamics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,9 @@
 #include <fstream>
 #include <numbers>
 
-#include "bench/problems.hpp"
-#include "forward/box_mesh.hpp"
+#include "bench/problems/problems.hpp"
+#include "forward/geometry/box_mesh.hpp"
+#include "forward/model/build_model.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <functional>
 
-#include "forward/effects/gravity.hpp"
+#include "forward/effects/surroundings/gravity.hpp"
+#include "forward/model/build_effects.hpp"
+#include "forward/model/build_model.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

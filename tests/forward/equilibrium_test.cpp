@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "forward/sensitivity.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/statics/sensitivity.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

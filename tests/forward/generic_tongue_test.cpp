@@ -6,8 +6,9 @@
 
 #include <map>
 
-#include "forward/closest_point.hpp"
-#include "forward/equilibrium.hpp"
+#include "forward/geometry/closest_point.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/statics/equilibrium.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "forward/equilibrium.hpp"
-#include "forward/import_grenoble.hpp"
+#include "forward/anatomy/import_grenoble.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/statics/equilibrium.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

@@ -1,11 +1,12 @@
 // Half a tongue takes the shape that the whole one takes under symmetric commands.
 
-#include "forward/half_model.hpp"
+#include "forward/model/half_model.hpp"
 
 #include <gtest/gtest.h>
 
-#include "forward/equilibrium.hpp"
-#include "forward/mirror.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/mirror.hpp"
+#include "forward/statics/equilibrium.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

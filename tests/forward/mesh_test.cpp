@@ -1,4 +1,4 @@
-#include "forward/mesh.hpp"
+#include "forward/geometry/mesh.hpp"
 
 #include <gtest/gtest.h>
 

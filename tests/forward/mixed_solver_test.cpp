@@ -1,9 +1,9 @@
-#include "forward/mixed_solver.hpp"
+#include "forward/algebra/mixed_solver.hpp"
 
 #include <gtest/gtest.h>
 
-#include "bench/block.hpp"
-#include "forward/equilibrium.hpp"
+#include "bench/problems/block.hpp"
+#include "forward/statics/equilibrium.hpp"
 
 namespace genio {
 namespace {

@@ -1,4 +1,4 @@
-#include "forward/model_file.hpp"
+#include "forward/model/model_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "forward/model/build_model.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

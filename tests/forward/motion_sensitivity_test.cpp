@@ -1,9 +1,10 @@
 // The derivative of a motion is that of the steps it took.
 
-#include "forward/motion_sensitivity.hpp"
+#include "forward/motion/motion_sensitivity.hpp"
 
 #include <gtest/gtest.h>
 
+#include "forward/model/build_model.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

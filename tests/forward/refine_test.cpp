@@ -1,4 +1,4 @@
-#include "forward/refine.hpp"
+#include "forward/anatomy/refine.hpp"
 
 #include <gtest/gtest.h>
 

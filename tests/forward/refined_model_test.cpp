@@ -1,4 +1,4 @@
-#include "forward/refined_model.hpp"
+#include "forward/anatomy/refined_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <random>
 
-#include "forward/box_mesh.hpp"
+#include "forward/geometry/box_mesh.hpp"
+#include "forward/model/build_model.hpp"
 
 namespace genio::test {
 

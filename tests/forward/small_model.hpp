@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "forward/model_file.hpp"
+#include "forward/model/build_model.hpp"
 
 namespace genio::test {
 

@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "bench/problems.hpp"
-#include "forward/box_mesh.hpp"
-#include "forward/equilibrium.hpp"
+#include "bench/problems/problems.hpp"
+#include "forward/geometry/box_mesh.hpp"
+#include "forward/statics/equilibrium.hpp"
 
 namespace genio {
 namespace {

@@ -2,8 +2,9 @@
 
 #include <cstdio>
 
-#include "forward/model_file.hpp"
-#include "inverse/infer.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
+#include "inverse/shape/infer.hpp"
 #include "server/client.hpp"
 
 int main(int, char** argv) {

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "inverse/frame_target.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/recording/frame_target.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

@@ -9,8 +9,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "forward/triangle_surface.hpp"
-#include "inverse/frame_target.hpp"
+#include "forward/geometry/triangle_surface.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/recording/frame_target.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

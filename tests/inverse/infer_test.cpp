@@ -1,8 +1,9 @@
-#include "inverse/infer.hpp"
+#include "inverse/shape/infer.hpp"
 
 #include <gtest/gtest.h>
 
-#include "inverse/objective.hpp"
+#include "inverse/shape/objective.hpp"
+#include "inverse/target/comparison.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
@@ -15,11 +16,11 @@ TEST_F(Infer, MeetsASimulatedShapeFromRest) {
   ASSERT_EQ(a.status, InferStatus::converged) << a.message;
   EXPECT_LT(1e3 * a.rms, 0.05);
   EXPECT_EQ(a.verdict, Verdict::explained);
-  for (const auto& c : a.commands) {
-    EXPECT_GE(c.force, 0);
-    EXPECT_LE(c.force, c.max_force);
-    EXPECT_LE(c.low, c.force + 1e-9);
-    EXPECT_GE(c.high, c.force - 1e-9);
+  for (const auto& c : a.muscles) {
+    EXPECT_GE(c.best, 0);
+    EXPECT_LE(c.best, c.maximum);
+    EXPECT_LE(c.low, c.best + 1e-9);
+    EXPECT_GE(c.high, c.best - 1e-9);
     EXPECT_GT(c.sd, 0);
   }
 }
@@ -28,14 +29,14 @@ TEST_F(Infer, GradientIsTheDerivativeOfTheObjective) {
   const Comparison comparison(m, pulled({{"GGP", 2}, {"HG", 1}}));
   const InferOptions options;
   Objective objective(m, comparison, Prior{}, options, ws);
-  const Vector z = Vector::Constant(Eigen::Index(objective.commands().size()), 0.02);
+  const Vector z = Vector::Constant(Eigen::Index(objective.unknowns().size()), 0.02);
   const Vector gradient = objective.derivatives(z)->gradient;
   for (Eigen::Index k = 0; k < z.size(); ++k) {
     const double h = 1e-4;
     const double up = *objective.value(z + h * Vector::Unit(z.size(), k));
     const double down = *objective.value(z - h * Vector::Unit(z.size(), k));
     EXPECT_NEAR((up - down) / (2 * h), gradient[k], 1e-4 * gradient.norm())
-        << objective.commands()[size_t(k)].name;
+        << objective.unknowns()[size_t(k)].name;
   }
 }
 
@@ -45,7 +46,7 @@ TEST_F(Infer, HessianIsTheDerivativeOfTheGradient) {
   const Comparison comparison(m, t);
   const InferOptions options;
   Objective objective(m, comparison, Prior{}, options, ws);
-  const Vector z = Vector::Constant(Eigen::Index(objective.commands().size()), 0.02);
+  const Vector z = Vector::Constant(Eigen::Index(objective.unknowns().size()), 0.02);
   const Matrix hessian = objective.exact_hessian(*objective.derivatives(z));
   const Matrix left_out = hessian - objective.gauss_newton(*objective.derivatives(z));
   EXPECT_GT(left_out.norm(), 0.05 * hessian.norm());
@@ -54,7 +55,7 @@ TEST_F(Infer, HessianIsTheDerivativeOfTheGradient) {
     const Vector up = objective.derivatives(z + h * Vector::Unit(z.size(), k))->gradient;
     const Vector down = objective.derivatives(z - h * Vector::Unit(z.size(), k))->gradient;
     EXPECT_LT(((up - down) / (2 * h) - hessian.col(k)).norm(), 1e-3 * hessian.norm())
-        << objective.commands()[size_t(k)].name;
+        << objective.unknowns()[size_t(k)].name;
   }
 }
 

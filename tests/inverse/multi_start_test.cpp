@@ -1,7 +1,8 @@
-#include "inverse/multi_start.hpp"
+#include "inverse/search/multi_start.hpp"
 
 #include <gtest/gtest.h>
 
+#include "inverse/target/comparison.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
@@ -16,16 +17,16 @@ TEST_F(MultiStart, AtlasHoldsEquilibriaOfItsCommands) {
   AtlasCache cache;
   const Atlas& atlas = cache.get(m, Prior{}, true, ws);
   EXPECT_GT(atlas.entries.size(), 25u);
-  const auto commands = unknowns(m, Prior{}, true);
+  const auto unknowns = unknowns_of(m, Prior{}, true);
   for (const auto& e : {atlas.entries[1], atlas.entries.back()}) {
-    const Parameters p = apply_commands(commands, e.unknowns, default_parameters(m));
+    const Parameters p = apply_unknowns(unknowns, e.unknowns, default_parameters(m));
     EXPECT_LT(m.dofs.reduce(force(m, e.shape, p)).norm(), 1e-7 * load_size(m, e.shape, p));
   }
   EXPECT_EQ(&atlas, &cache.get(m, Prior{}, true, ws));
   Prior fixed;
   fixed.fixed["SL"] = 1;
   for (const auto& e : cache.get(m, fixed, true, ws).entries)
-    EXPECT_NEAR(apply_commands(commands, e.unknowns,
+    EXPECT_NEAR(apply_unknowns(unknowns, e.unknowns,
                                default_parameters(m))[command_parameters(m, "SL").front()],
                 1, 1e-9);
 }
@@ -37,11 +38,11 @@ TEST_F(MultiStart, ACurledTipIsNotTakenForItsOpposite) {
   ASSERT_EQ(a.status, InferStatus::converged) << a.message;
   EXPECT_EQ(a.verdict, Verdict::explained) << a.message;
   EXPECT_LT(1e3 * a.rms, 0.2);
-  for (const auto& c : a.commands) {
+  for (const auto& c : a.muscles) {
     if (c.name == "SL") {
-      EXPECT_NEAR(c.force, 5.2, 1.0);
+      EXPECT_NEAR(c.best, 5.2, 1.0);
     } else if (c.name == "IL") {
-      EXPECT_LT(c.force, 2);
+      EXPECT_LT(c.best, 2);
     }
   }
 }
@@ -53,18 +54,18 @@ TEST_F(MultiStart, HalfATongueAnswersAsTheWhole) {
   AtlasCache cache;
   const Atlas& atlas = cache.get(m, Prior{}, true, ws);
   InferOptions from;
-  const auto* start = nearest(atlas, Comparison(m, t), unknowns(m, Prior{}, true),
-                              prior_terms(Prior{}, unknowns(m, Prior{}, true)))
+  const auto* start = nearest(atlas, Comparison(m, t), unknowns_of(m, Prior{}, true),
+                              prior_terms(Prior{}, unknowns_of(m, Prior{}, true)))
                           .front();
   from.start = start->unknowns, from.start_shape = start->shape;
   const Answer whole = infer(m, t, Prior{}, ws, from);
   ASSERT_EQ(whole.status, InferStatus::converged) << whole.message;
-  ASSERT_EQ(half.commands.size(), whole.commands.size());
-  for (size_t i = 0; i < half.commands.size(); ++i) {
-    const auto &a = half.commands[i], &b = whole.commands[i];
+  ASSERT_EQ(half.muscles.size(), whole.muscles.size());
+  for (size_t i = 0; i < half.muscles.size(); ++i) {
+    const auto &a = half.muscles[i], &b = whole.muscles[i];
     EXPECT_EQ(a.name, b.name);
-    EXPECT_NEAR(a.max_force, b.max_force, 1e-9);
-    EXPECT_NEAR(a.force, b.force, 0.05 * b.sd + 1e-3 * b.max_force) << a.name;
+    EXPECT_NEAR(a.maximum, b.maximum, 1e-9);
+    EXPECT_NEAR(a.best, b.best, 0.05 * b.sd + 1e-3 * b.maximum) << a.name;
     EXPECT_NEAR(a.sd, b.sd, 0.05 * b.sd) << a.name;
     EXPECT_NEAR(a.high, b.high, 0.1 * b.sd) << a.name;
   }

@@ -1,9 +1,11 @@
-#include "inverse/posterior.hpp"
+#include "inverse/posterior/posterior.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
+
+#include "inverse/posterior/box_integral.hpp"
 
 namespace genio {
 namespace {
@@ -184,8 +186,8 @@ TEST(UnseenDirections, NameWhatTradesForWhat) {
   // The data see only 2 z0 + z1; a third command is seen well.
   Matrix j(2, 3);
   j << 200, 100, 0, 0, 0, 100;
-  const std::vector<Command> commands = {{"A", 2, {}, {}}, {"B", 3, {}, {}}, {"C", 1, {}, {}}};
-  const auto trades = unseen_directions(j, Matrix::Identity(3, 3), commands);
+  const std::vector<Unknown> unknowns = {{"A", 2, {}, {}}, {"B", 3, {}, {}}, {"C", 1, {}, {}}};
+  const auto trades = unseen_directions(j, Matrix::Identity(3, 3), unknowns);
   ASSERT_EQ(trades.size(), 1u);
   ASSERT_EQ(names(trades[0]), (std::vector<std::string>{"A", "B"}));
   EXPECT_NEAR(trades[0][0].amount / trades[0][1].amount, -0.5 * 2 / 3, 1e-3);

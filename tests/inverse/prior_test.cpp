@@ -1,12 +1,16 @@
-#include "inverse/prior.hpp"
+#include "inverse/prior/prior.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "inverse/infer.hpp"
-#include "inverse/objective.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/posterior/posterior.hpp"
+#include "inverse/prior/prior_file.hpp"
+#include "inverse/shape/infer.hpp"
+#include "inverse/shape/objective.hpp"
+#include "inverse/target/comparison.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
@@ -17,8 +21,8 @@ namespace fs = std::filesystem;
 class PriorTest : public test::PulledTongue {
  protected:
   double activation(const Answer& a, const std::string& name) {
-    for (const auto& c : a.commands)
-      if (c.name == name) return c.force / c.max_force;
+    for (const auto& c : a.muscles)
+      if (c.name == name) return c.best / c.maximum;
     ADD_FAILURE() << name;
     return 0;
   }
@@ -44,8 +48,8 @@ TEST_F(PriorTest, TermsAreTheirOwnDerivatives) {
   prior.symmetry_sd = 0.03;
   prior.cocontraction = Normal{0.1, 0.02};
   prior.parameters["elasticity.a10"] = {1000, 200};
-  prior.head_pose = Prior::HeadPose{1e-3, 0.02};
-  const auto u = unknowns(m, prior, false);
+  prior.head_pose = HeadPosePrior{1e-3, 0.02};
+  const auto u = unknowns_of(m, prior, false);
   const PriorTerms t = prior_terms(prior, u);
   const Vector z = Vector::Random(Eigen::Index(u.size())), d = Vector::Random(z.size());
   const double h = 1e-4;
@@ -58,12 +62,12 @@ TEST_F(PriorTest, TermsAreTheirOwnDerivatives) {
 TEST_F(PriorTest, ABeliefMayBeCutOffWithinTheBoundsOfItsParameter) {
   Prior prior;
   prior.parameters["elasticity.a10"] = {{1000, 200}, 900, 1e9};
-  const Command c = unknowns(m, prior, false).back();
+  const Unknown c = unknowns_of(m, prior, false).back();
   EXPECT_NEAR(c.lower * c.scale, 900, 1e-9);
   const auto& info = m.parameters[size_t(c.parameters.front())].info;
   EXPECT_LE(c.upper * c.scale, info.upper * (1 + 1e-12));
   prior.parameters["elasticity.a10"] = {{1000, 200}, 1100};
-  EXPECT_THROW(unknowns(m, prior, false), InputError);
+  EXPECT_THROW(unknowns_of(m, prior, false), InputError);
 }
 
 TEST_F(PriorTest, AFactorIsBelievedInByItsLogarithm) {
@@ -72,33 +76,33 @@ TEST_F(PriorTest, AFactorIsBelievedInByItsLogarithm) {
   const Model scarred = build_model(d, "scarred");
   Prior prior;
   prior.parameters["stiff_region.factor"] = {{1, 0.7}, 0.25, 8, true};
-  const auto u = unknowns(scarred, prior, true);
+  const auto u = unknowns_of(scarred, prior, true);
   const PriorTerms t = prior_terms(prior, u);
-  const Command& c = u.back();
+  const Unknown& c = u.back();
   EXPECT_NEAR(c.value(c.lower), 0.25, 1e-12);
   EXPECT_NEAR(c.value(c.upper), 8, 1e-12);
-  EXPECT_NEAR(c.value(c.unknown(3)), 3, 1e-12);
-  EXPECT_NEAR(c.slope(3), (c.value(c.unknown(3) + 1e-6) - c.value(c.unknown(3) - 1e-6)) / 2e-6,
+  EXPECT_NEAR(c.value(c.z_of(3)), 3, 1e-12);
+  EXPECT_NEAR(c.slope(3), (c.value(c.z_of(3) + 1e-6) - c.value(c.z_of(3) - 1e-6)) / 2e-6,
               1e-6 * c.slope(3));
   Vector z = Vector::Zero(Eigen::Index(u.size()));
   EXPECT_NEAR(t.value(z), 0, 1e-12);
-  z[z.size() - 1] = c.unknown(4);
+  z[z.size() - 1] = c.z_of(4);
   EXPECT_NEAR(t.value(z), 0.5 * std::pow(std::log(4) / 0.7, 2), 1e-9);
-  z[z.size() - 1] = c.unknown(0.25);
+  z[z.size() - 1] = c.z_of(0.25);
   EXPECT_NEAR(t.value(z), 0.5 * std::pow(std::log(4) / 0.7, 2), 1e-9);
-  EXPECT_EQ(apply_commands(u, z, default_parameters(scarred))[c.parameters.front()],
-            c.value(c.unknown(0.25)));
+  EXPECT_EQ(apply_unknowns(u, z, default_parameters(scarred))[c.parameters.front()],
+            c.value(c.z_of(0.25)));
 }
 
 TEST_F(PriorTest, DensityKnowsWhatIsFixed) {
   Prior prior;
   prior.symmetry_sd = 1e-3;
   prior.fixed["GGP_L"] = 0.2 * m.parameters[size_t(command_parameters(m, "GGP_L")[0])].info.upper;
-  const auto u = unknowns(m, prior, false);
+  const auto u = unknowns_of(m, prior, false);
   const PriorTerms t = prior_terms(prior, u);
   const auto open = t.open();
   ASSERT_EQ(open.size(), u.size() - 1);
-  const Vector mean = sample(t.density(), 2000).rowwise().mean();
+  const Vector mean = sample(density_of(t), 2000).rowwise().mean();
   for (size_t i = 0; i < open.size(); ++i)
     if (u[size_t(open[i])].name == "GGP_R") {
       EXPECT_NEAR(mean[Eigen::Index(i)], 0.2, 1e-2);
@@ -108,7 +112,7 @@ TEST_F(PriorTest, DensityKnowsWhatIsFixed) {
 TEST_F(PriorTest, SymmetryTiesTheSides) {
   Prior prior;
   prior.symmetry_sd = 1e-3;
-  const auto u = unknowns(m, prior, false);
+  const auto u = unknowns_of(m, prior, false);
   const PriorTerms t = prior_terms(prior, u);
   Vector even = Vector::Zero(Eigen::Index(u.size())), odd = even;
   for (size_t i = 0; i < u.size(); ++i)
@@ -125,10 +129,10 @@ TEST_F(PriorTest, FixedMusclesStayWhereTheyAre) {
   prior.fixed["GGP"] = 2.5;
   const Answer a = infer(m, pulled({{"GGP", 2.5}, {"SL", 0.8}}, 30, 1e-3), prior, ws);
   ASSERT_EQ(a.status, InferStatus::converged) << a.message;
-  for (const auto& c : a.commands) {
+  for (const auto& c : a.muscles) {
     if (c.name != "MH" && c.name != "GGP") continue;
     EXPECT_TRUE(c.fixed);
-    EXPECT_NEAR(c.force, c.name == "GGP" ? 2.5 : 0, 1e-9);
+    EXPECT_NEAR(c.best, c.name == "GGP" ? 2.5 : 0, 1e-9);
     EXPECT_EQ(c.sd, 0);
     EXPECT_EQ(c.low, c.high);
   }
@@ -150,7 +154,7 @@ TEST_F(PriorTest, CocontractionSetsTheMeanActivation) {
   prior.cocontraction = Normal{0.1, 0.002};
   const Answer a = infer(m, t, prior, ws);
   double sum = 0;
-  for (const auto& c : a.commands) sum += c.force / c.max_force / double(a.commands.size());
+  for (const auto& c : a.muscles) sum += c.best / c.maximum / double(a.muscles.size());
   EXPECT_NEAR(sum, 0.1, 0.01);
 }
 
@@ -158,13 +162,13 @@ TEST_F(PriorTest, AMovedHeadIsFoundAlong) {
   Target t = pulled({{"GGP", 3}, {"SL", 1}}, 30, 3e-4);
   for (auto& p : t.curve) p.position += Vec2(1.5e-3, -1e-3);
   Prior prior;
-  prior.head_pose = Prior::HeadPose{2e-3, 0.02};
+  prior.head_pose = HeadPosePrior{2e-3, 0.02};
   const Answer a = infer(m, t, prior, ws);
-  ASSERT_EQ(a.along.size(), 3u);
+  ASSERT_EQ(a.others.size(), 3u);
   EXPECT_EQ(a.verdict, Verdict::explained);
-  EXPECT_NEAR(a.along[0].force, -1.5e-3, 3 * a.along[0].sd);
-  EXPECT_NEAR(a.along[1].force, 1e-3, 3 * a.along[1].sd);
-  EXPECT_LT(a.along[0].sd, 4e-3);
+  EXPECT_NEAR(a.others[0].best, -1.5e-3, 3 * a.others[0].sd);
+  EXPECT_NEAR(a.others[1].best, 1e-3, 3 * a.others[1].sd);
+  EXPECT_LT(a.others[0].sd, 4e-3);
 }
 
 TEST_F(PriorTest, HessianCountsParametersAndPoseToo) {
@@ -176,20 +180,20 @@ TEST_F(PriorTest, HessianCountsParametersAndPoseToo) {
   Prior prior;
   prior.parameters["jaw_opening.angle"] = {1, 3};
   prior.parameters["stiff_region.factor"] = {{1, 1}, 0.1, 10, true};
-  prior.head_pose = Prior::HeadPose{2e-3, 0.05};
+  prior.head_pose = HeadPosePrior{2e-3, 0.05};
   Target t = curve_target(jaw, jaw.rest, 30, 1e-3);
   for (auto& p : t.curve) p.position += Vec2(1e-3, 2e-3);
   const Comparison comparison(jaw, t);
   const InferOptions options;
   Objective objective(jaw, comparison, prior, options, own);
-  Vector z = Vector::Constant(Eigen::Index(objective.commands().size()), 0.03);
+  Vector z = Vector::Constant(Eigen::Index(objective.unknowns().size()), 0.03);
   const Matrix hessian = objective.exact_hessian(*objective.derivatives(z));
   for (Eigen::Index k = z.size() - 6; k < z.size(); ++k) {
     const double h = 1e-4;
     const Vector up = objective.derivatives(z + h * Vector::Unit(z.size(), k))->gradient;
     const Vector down = objective.derivatives(z - h * Vector::Unit(z.size(), k))->gradient;
     EXPECT_LT(((up - down) / (2 * h) - hessian.col(k)).norm(), 2e-3 * hessian.col(k).norm())
-        << objective.commands()[size_t(k)].name;
+        << objective.unknowns()[size_t(k)].name;
   }
 }
 
@@ -213,10 +217,10 @@ TEST_F(PriorTest, FilesSayWhatIsWrongAndWhere) {
   EXPECT_NEAR(p.head_pose->shift_sd, 2e-3, 1e-12);
   Prior wrong;
   wrong.emg["GPG"] = {0.1, 0.1};
-  EXPECT_THROW(prior_terms(wrong, unknowns(m, wrong, true)), InputError);
+  EXPECT_THROW(prior_terms(wrong, unknowns_of(m, wrong, true)), InputError);
   wrong = {};
   wrong.fixed["MH"] = 1e3;
-  EXPECT_THROW(prior_terms(wrong, unknowns(m, wrong, true)), InputError);
+  EXPECT_THROW(prior_terms(wrong, unknowns_of(m, wrong, true)), InputError);
 }
 
 }  // namespace

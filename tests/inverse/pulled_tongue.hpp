@@ -1,7 +1,8 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "inverse/infer.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/shape/infer.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio::test {

@@ -1,7 +1,8 @@
-#include "inverse/registration.hpp"
+#include "inverse/recording/registration.hpp"
 
 #include <gtest/gtest.h>
 
+#include "forward/model/build_model.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

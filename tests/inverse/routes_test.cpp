@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "inverse/full_space.hpp"
-#include "inverse/global_starts.hpp"
-#include "inverse/objective.hpp"
+#include "inverse/search/full_space.hpp"
+#include "inverse/search/global_starts.hpp"
+#include "inverse/shape/objective.hpp"
+#include "inverse/target/comparison.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
@@ -26,11 +27,11 @@ TEST_F(Routes, FullSpaceMeetsTheReducedOptimum) {
                b = infer_from_starts(m, t, Prior{}, all, full, {1});
   ASSERT_EQ(a.status, InferStatus::converged) << a.message;
   ASSERT_EQ(b.status, InferStatus::converged) << b.message;
-  ASSERT_EQ(a.commands.size(), b.commands.size());
-  for (size_t i = 0; i < a.commands.size(); ++i) {
-    EXPECT_NEAR(a.commands[i].force, b.commands[i].force, 0.02 * a.commands[i].sd + 1e-4)
-        << a.commands[i].name;
-    EXPECT_NEAR(a.commands[i].sd, b.commands[i].sd, 0.02 * a.commands[i].sd);
+  ASSERT_EQ(a.muscles.size(), b.muscles.size());
+  for (size_t i = 0; i < a.muscles.size(); ++i) {
+    EXPECT_NEAR(a.muscles[i].best, b.muscles[i].best, 0.02 * a.muscles[i].sd + 1e-4)
+        << a.muscles[i].name;
+    EXPECT_NEAR(a.muscles[i].sd, b.muscles[i].sd, 0.02 * a.muscles[i].sd);
   }
   EXPECT_NEAR(a.rms, b.rms, 1e-6);
   EXPECT_LT((a.shape - b.shape).cwiseAbs().maxCoeff(), 2e-5);
@@ -41,14 +42,14 @@ TEST_F(Routes, HeadPoseAndNoiseWithTailsAreTheSameInFullSpace) {
   for (auto& p : t.curve) p.position += Vec2(1e-3, -5e-4);
   t.outlier_dof = 4;
   Prior prior;
-  prior.head_pose = Prior::HeadPose{1e-3, 0.02};
+  prior.head_pose = HeadPosePrior{1e-3, 0.02};
   InferOptions full;
   full.full_space = true;
   const Answer a = infer_from_starts(m, t, prior, all, {}, {1}),
                b = infer_from_starts(m, t, prior, all, full, {1});
   ASSERT_EQ(b.status, InferStatus::converged) << b.message;
-  for (size_t i = 0; i < a.along.size(); ++i)
-    EXPECT_NEAR(a.along[i].force, b.along[i].force, 0.05 * a.along[i].sd);
+  for (size_t i = 0; i < a.others.size(); ++i)
+    EXPECT_NEAR(a.others[i].best, b.others[i].best, 0.05 * a.others[i].sd);
 }
 
 TEST_F(Routes, TheLocalProblemIsTheObjectiveToSecondOrder) {
@@ -58,7 +59,7 @@ TEST_F(Routes, TheLocalProblemIsTheObjectiveToSecondOrder) {
   const InferOptions options;
   Objective o(m, comparison, Prior{}, options, ws);
   // At the optimum its curvature counts.
-  const DescentResult r = descend(o, Vector::Constant(Eigen::Index(o.commands().size()), 0.01), {});
+  const DescentResult r = descend(o, Vector::Constant(Eigen::Index(o.unknowns().size()), 0.01), {});
   ASSERT_TRUE(r.converged) << r.message;
   const auto local = o.local(r.u);
   ASSERT_TRUE(local);
@@ -96,16 +97,16 @@ TEST_F(Routes, AtlasShapesPassThroughTheirEntriesWithTheirSlopes) {
 TEST_F(Routes, ValleysHoldTheTruthAmongTheDeepest) {
   const Target t = pulled({{"SL", 4}, {"HG", 3}});
   TongueState& tongue = *all.half(Prior{});
-  const auto commands = unknowns(*tongue.model, Prior{}, true);
-  const PriorTerms prior = prior_terms(Prior{}, commands);
+  const auto unknowns = unknowns_of(*tongue.model, Prior{}, true);
+  const PriorTerms prior = prior_terms(Prior{}, unknowns);
   const Atlas& atlas = tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace);
   const Comparison comparison(*tongue.model, half_target(all.mirror(), t));
-  const auto found = valleys(atlas, comparison, commands, prior, 4);
+  const auto found = valleys(atlas, comparison, unknowns, prior, 4);
   ASSERT_GE(found.size(), 2u);
   const auto value = [&](const Atlas::Entry& e) {
     return 0.5 * comparison(e.shape).values.squaredNorm() + prior.value(e.unknowns);
   };
-  EXPECT_LT(value(found[0]), value(*nearest(atlas, comparison, commands, prior).front()));
+  EXPECT_LT(value(found[0]), value(*nearest(atlas, comparison, unknowns, prior).front()));
   for (size_t k = 1; k < found.size(); ++k) {
     EXPECT_GE(value(found[k]), value(found[k - 1]) - 1e-9);
     EXPECT_GT((found[k].unknowns - found[0].unknowns).cwiseAbs().maxCoeff(), 0.05);

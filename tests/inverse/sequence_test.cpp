@@ -1,12 +1,12 @@
 // A recording as one problem: smoothing, and a movement with inertia.
 
-#include "inverse/sequence.hpp"
+#include "inverse/sequence/sequence.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "inverse/motion_inversion.hpp"
+#include "inverse/sequence/motion_inversion.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {
@@ -27,12 +27,12 @@ class Sequence : public test::PulledTongue {
     return frames;
   }
   static double force(const Answer& a, const std::string& name) {
-    for (const auto& c : a.commands)
-      if (c.name == name) return c.force;
+    for (const auto& c : a.muscles)
+      if (c.name == name) return c.best;
     return -1;
   }
   static double sd(const Answer& a, const std::string& name) {
-    for (const auto& c : a.commands)
+    for (const auto& c : a.muscles)
       if (c.name == name) return c.sd;
     return -1;
   }
@@ -113,8 +113,8 @@ TEST_F(Sequence, AMovementIsFoundAgain) {
   EXPECT_EQ(a.verdict, Verdict::explained);
   EXPECT_LT(1e3 * a.rms, 0.1);
   ASSERT_EQ(a.knots_s, (std::vector<double>{0, 0.025, 0.05}));
-  for (const auto& e : a.commands[0]) EXPECT_EQ(e.force, 0);
-  for (const auto& e : a.commands[2])
+  for (const auto& e : a.estimates[0]) EXPECT_EQ(e.best, 0);
+  for (const auto& e : a.estimates[2])
     if (e.name == "GGP") {
       EXPECT_LE(e.low, 3);
       EXPECT_GE(e.high, 3);
@@ -123,7 +123,7 @@ TEST_F(Sequence, AMovementIsFoundAgain) {
   CommandsOverTime found;
   for (size_t j = 0; j < a.knots_s.size(); ++j) {
     Parameters p = rest;
-    for (const auto& e : a.commands[j]) set_command(m, e.name, e.force, p);
+    for (const auto& e : a.estimates[j]) set_command(m, e.name, e.best, p);
     found.times.push_back(a.knots_s[j]), found.values.push_back(p);
   }
   const Trajectory again = simulate(m, found, start.x, ws, time);
@@ -141,7 +141,7 @@ TEST_F(Sequence, MovementsWithoutTimeAreRefused) {
   EXPECT_THROW(infer_motion(m, {frame}, Prior{}, all), InputError);
   EXPECT_THROW(infer_motion(m, {}, Prior{}, all), InputError);
   Prior pose;
-  pose.head_pose = Prior::HeadPose{1e-3, 0.01};
+  pose.head_pose = HeadPosePrior{1e-3, 0.01};
   frame.time_s = 0.1;
   EXPECT_THROW(infer_motion(m, {frame}, pose, all), InputError);
 }

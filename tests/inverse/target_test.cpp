@@ -1,13 +1,16 @@
-#include "inverse/target.hpp"
+#include "inverse/target/target.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "forward/mirror.hpp"
-#include "inverse/curvature.hpp"
-#include "inverse/infer.hpp"
+#include "forward/model/mirror.hpp"
+#include "inverse/shape/curvature.hpp"
+#include "inverse/shape/infer.hpp"
+#include "inverse/target/comparison.hpp"
+#include "inverse/target/head_pose.hpp"
+#include "inverse/target/tissue_point.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
 namespace genio {

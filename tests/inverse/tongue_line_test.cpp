@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "inverse/target.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/target/comparison.hpp"
+#include "inverse/target/target.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "inverse/frame_target.hpp"
-#include "inverse/infer.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/recording/frame_target.hpp"
+#include "inverse/shape/infer.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

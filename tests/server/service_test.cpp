@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "forward/model/build_model.hpp"
 #include "server/client.hpp"
 #include "server/hub.hpp"
 #include "tests/forward/small_model.hpp"

@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bench/figures/benchmarks.hpp"
+#include "inverse/recording/frame_target.hpp"
+#include "inverse/search/multi_start.hpp"
+
+namespace genio::bench {
+namespace {
+
+/// The frame in the middle of each run of one label's frames, in the file's order.
+std::vector<const ContourFrame*> middle_frames(const ContourFile& file) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const ContourFrame*>> by_label;
+  for (const auto& frame : file.frames) {
+    auto& frames = by_label[frame.label];
+    if (frames.empty()) order.push_back(frame.label);
+    frames.push_back(&frame);
+  }
+  std::vector<const ContourFrame*> result;
+  for (const auto& label : order) result.push_back(by_label[label][by_label[label].size() / 2]);
+  return result;
+}
+
+std::vector<const ContourFrame*> every_frame(const ContourFile& file) {
+  std::vector<const ContourFrame*> result;
+  for (const auto& frame : file.frames) result.push_back(&frame);
+  return result;
+}
+
+/// `infer`: where to start, replaced by where it ended.
+Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& transform,
+                  double noise, InferWorkspace& ws, InferOptions& infer) {
+  Json j = {{"frame", frame.number}, {"label", frame.label}};
+  const Target target = make_target(m, registered(m, frame, transform), noise);
+  if (target.empty()) {
+    j["status"] = "failed", j["message"] = frame.note;
+    return j;
+  }
+  const Answer a = infer_from_starts(m, target, Prior{}, ws, infer);
+  if (a.status == InferStatus::converged) start_from(a, infer);
+  j["status"] = to_string(a.status), j["verdict"] = to_string(a.verdict), j["message"] = a.message;
+  j["rms_mm"] = 1e3 * a.rms, j["max_mm"] = 1e3 * a.max;
+  j["wall_s"] = a.wall_s, j["factorizations"] = a.factorizations;
+  for (const auto& c : a.muscles) j["forces_N"][c.name] = c.best;
+  return j;
+}
+
+}  // namespace
+
+Json ultrasound(const Model& m, const std::string& contours, const std::string& palate, bool all,
+                const Progress& progress) {
+  const auto [file, r] = register_file(m, read_contours(contours), palate);
+  InferWorkspace ws(m);
+  Json frames = Json::array();
+  std::vector<double> rms, seconds;
+  int empty = 0;
+  std::map<std::string, int> verdicts;
+  InferOptions infer;
+  for (const ContourFrame* frame : all ? every_frame(file) : middle_frames(file)) {
+    if (!all) infer = {};
+    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws, infer);
+    ++verdicts[j["status"] == "converged" ? j["verdict"].get<std::string>() : "no answer"];
+    if (progress)
+      progress(fmt::format("{:>5}  {:<28} {:<10} {:<12} {:5.2f} mm {:6.2f} s  {}", frame->number,
+                           frame->label, j["status"].get<std::string>(), j.value("verdict", ""),
+                           j.value("rms_mm", 0.0), j.value("wall_s", 0.0),
+                           j["message"].get<std::string>()));
+    if (j["status"] == "converged") rms.push_back(j["rms_mm"]);
+    if (j.contains("wall_s")) seconds.push_back(j["wall_s"]);
+    empty += frame->points.empty();
+    frames.push_back(std::move(j));
+  }
+  const auto median = [](std::vector<double> v) {
+    std::sort(v.begin(), v.end());
+    return v.empty() ? Json() : Json(0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]));
+  };
+  return {{"cases", frames.size()},
+          {"verdicts", verdicts},
+          {"empty_frames", empty},
+          {"answered", rms.size()},
+          {"rms_mm_median", median(rms)},
+          {"wall_s_median", median(seconds)},
+          {"scale", r.transform.scale},
+          {"palate_rms_mm", 1e3 * r.palate_rms},
+          {"frames", frames}};
+}
+
+}  // namespace genio::bench

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/figures/benchmarks.hpp"
+#include "forward/anatomy/import_grenoble.hpp"
+#include "forward/model/build_model.hpp"
+#include "inverse/search/multi_start.hpp"
+
+namespace genio::bench {
+namespace {
+
+constexpr double peer_rms = 2.07;  // [mm], of the stored run
+constexpr double forward = 10e-3;  // [m]
+constexpr int nodes[] = {338, 339, 340, 341, 919, 359, 926, 361, 751, 752, 753,
+                         754, 772, 774, 166, 301, 299, 141, 579, 554, 712, 714};
+
+Json solved(const Model& m, int starts) {
+  Target target;
+  for (int a : nodes)
+    target.flesh.push_back({{{a, 1.0}},
+                            node_position(m.rest, a) - forward * Vec3::UnitX(),
+                            0.2e-3,
+                            fmt::format("node:{}", a)});
+  Prior prior;
+  prior.effort_sd = 1;  // the maxima are what limits, not effort
+  InferOptions infer;
+  infer.bilateral = true;
+  InferWorkspace ws(m);
+  const Answer a = infer_from_starts(m, target, prior, ws, infer, {starts});
+  Json j = {{"status", to_string(a.status)},
+            {"verdict", to_string(a.verdict)},
+            {"message", a.message},
+            {"rms_mm", 1e3 * a.rms},
+            {"max_mm", 1e3 * a.max},
+            {"starts", starts},
+            {"wall_s", a.wall_s},
+            {"other_optima_rms_mm", Json::array()}};
+  for (const auto& other : a.alternatives) j["other_optima_rms_mm"].push_back(1e3 * other.rms);
+  for (const auto& c : a.muscles) {
+    j["activation"][c.name] = c.best / c.maximum;
+    if (c.multiplier > 0) j["bound_multipliers"][c.name] = c.multiplier;
+  }
+  return j;
+}
+
+}  // namespace
+
+Json peer(const std::string& folder, const Progress& progress) {
+  ModelDescription d = import_grenoble(folder);
+  Json result = {{"peer_rms_mm", peer_rms}};
+  for (const bool contact : {true, false}) {
+    if (!contact) d.effects.erase("palate_contact"), d.effects.erase("jaw_contact");
+    const std::string name = contact ? "with_contact" : "without_contact";
+    result[name] = solved(build_model(d, "Grenoble"), 6);
+    if (progress)
+      progress(fmt::format("{}: RMS {:.2f} mm (peer {:.2f}), {}", name,
+                           result[name]["rms_mm"].get<double>(), peer_rms,
+                           result[name]["verdict"].get<std::string>()));
+  }
+  return result;
+}
+
+}  // namespace genio::bench

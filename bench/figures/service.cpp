@@ -1,0 +1,62 @@
+#include "server/service.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "bench/figures/benchmarks.hpp"
+#include "server/client.hpp"
+#include "server/hub.hpp"
+
+namespace genio::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+Json service(const Model& m) {
+  const Hub hub(0);
+  ServiceOptions options;
+  options.url = fmt::format("tcpq://127.0.0.1:{}", hub.port());
+  std::atomic<bool> stop{false};
+  std::thread server([&] { serve(m, options, stop); });
+  std::vector<double> overhead;
+  int requests = 0, replies = 0;
+  {
+    Client client(options.url);
+    client.status(5);
+    for (int i = 0; i < 40; ++i) {
+      shape_request_t r{};
+      r.point_count = 1;
+      r.x_mm = {1e3 * m.mesh.nodes[size_t(m.landmarks.dorsum)][0]};
+      r.y_mm = {0};
+      r.z_mm = {1e3 * m.mesh.nodes[size_t(m.landmarks.dorsum)][2]};
+      r.sigma_mm = {1};
+      r.kind = {"dorsum"};
+      r.bilateral = 1;
+      const auto start = Clock::now();
+      const auto reply = client.request(r, 60);
+      ++requests;
+      if (!reply) continue;
+      ++replies;
+      overhead.push_back(1e3 * (since(start) - reply->wall_s));
+    }
+  }
+  stop = true;
+  server.join();
+  std::sort(overhead.begin(), overhead.end());
+  if (overhead.empty()) throw std::runtime_error("no reply came");
+  return {{"requests", requests},
+          {"replies", replies},
+          {"overhead_ms_median", overhead[overhead.size() / 2]},
+          {"overhead_ms_p99", overhead.back()}};
+}
+
+}  // namespace genio::bench

@@ -1,0 +1,6 @@
+#pragma once
+// The same for tests.
+
+#include <gtest/gtest.h>
+
+#include "cmake/pch.hpp"

@@ -1,0 +1,21 @@
+#pragma once
+// One round: candidates scored, the best refitted in full, and weighed against each other and
+// nothing.
+
+#include "discrepancy/contest/base.hpp"
+
+namespace genio {
+
+struct Contest {
+  Round round;
+  std::vector<Account> accounts;  ///< of each candidate of the round; most are not fitted
+  size_t best = 0;                ///< the likeliest candidate
+  bool won = false;               ///< it is to be added
+};
+
+/// `influences` and `projection`: of the base's fitted conditions; `found`: effects added before.
+/// The base may move to a better valley of the forces that a candidate's refit found.
+Contest contest(Base& base, const std::vector<Matrix>& influences, const Projection& projection,
+                const std::vector<Candidate>& found, const DiscoverOptions& options);
+
+}  // namespace genio

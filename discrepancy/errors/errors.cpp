@@ -1,0 +1,47 @@
+#include "discrepancy/errors/errors.hpp"
+
+#include "discrepancy/conditions/influence.hpp"
+#include "inverse/target/comparison.hpp"
+#include "inverse/target/head_pose.hpp"
+
+namespace genio {
+namespace {
+
+/// What smooth distances are off by: from a curved surface they are longer.
+Corrections smoothing(const Study& study, const JointFit& fit) {
+  Corrections result;
+  for (size_t k = 0; k < study.size(); ++k) {
+    const FittedCondition& c = fit.conditions[k];
+    const HeadPose pose = head_pose(c.unknowns, c.z);
+    const auto residuals = [&](double smooth) {
+      return Comparison(study.model(k), study.condition(k).target, smooth)(c.x, pose);
+    };
+    Residuals exact = residuals(0);
+    Vector added = exact.values - residuals(surface_smoothing).values;
+    result.push_back({std::move(added), std::move(exact)});
+  }
+  return result;
+}
+
+/// Minus the log posterior, but for constants.
+double cost(const JointFit& f, const Errors& errors) {
+  return f.value + errors.covariance.matrixLLT().diagonal().array().log().sum();
+}
+
+}  // namespace
+
+Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
+                 const ModelDoubt& doubt) {
+  Errors e;
+  e.corrections = refinement ? refinement->corrections(study, fit) : smoothing(study, fit);
+  e.matrix = residual_covariance(study, fit, influences_of(study, fit), e.corrections, doubt);
+  e.covariance.compute(e.matrix);
+  return e;
+}
+
+bool runs_away(const JointFit& next, const Errors& new_errors, const JointFit& last,
+               const Errors& errors, double by) {
+  return errors.covariance.rows() > 0 && cost(next, new_errors) > cost(last, errors) + by;
+}
+
+}  // namespace genio

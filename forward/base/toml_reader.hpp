@@ -1,0 +1,69 @@
+#pragma once
+// For sources only: what includes this links tomlplusplus.
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "forward/base/nearest_name.hpp"
+#include "forward/base/types.hpp"
+
+namespace genio {
+
+/// A TOML file with errors that name file, line and key.
+class TomlReader {
+ public:
+  explicit TomlReader(const std::string& path) : path_(path) {
+    try {
+      root_ = toml::parse_file(path_);
+    } catch (const toml::parse_error& e) {
+      throw InputError(fmt::format("{}:{}: {}", path_, e.source().begin.line, e.description()));
+    }
+  }
+  const toml::table& root() const { return root_; }
+  const std::string& path() const { return path_; }
+
+  [[noreturn]] void fail(const toml::node& at, const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", path_, at.source().begin.line, what));
+  }
+  const toml::table& table(const toml::table& in, const std::string& key) const {
+    const auto* node = in.get(key);
+    if (!node) throw InputError(fmt::format("{}: [{}] is missing", path_, key));
+    if (!node->is_table()) fail(*node, fmt::format("'{}' must be a table", key));
+    return *node->as_table();
+  }
+  void only(const toml::table& in, const std::vector<std::string>& known) const {
+    for (const auto& [key, node] : in)
+      if (std::find(known.begin(), known.end(), key.str()) == known.end())
+        fail(node, fmt::format("unknown key '{}'; did you mean {}?", key.str(),
+                               nearest_name(std::string(key.str()), known)));
+  }
+  double number(const toml::node& node, const std::string& key) const {
+    const auto v = node.value<double>();
+    if (!v || node.is_boolean() || !std::isfinite(*v))
+      fail(node, fmt::format("'{}' must be a finite number", key));
+    return *v;
+  }
+  std::string text(const toml::table& in, const std::string& key) const {
+    const auto* node = in.get(key);
+    if (!node) fail(in, fmt::format("'{}' is missing", key));
+    if (!node->is_string()) fail(*node, fmt::format("'{}' must be a string", key));
+    return **node->as_string();
+  }
+  int node_number(const toml::node& node, const std::string& key, size_t count) const {
+    const auto v = node.value_exact<int64_t>();
+    if (!v || *v < 0 || *v >= int64_t(count))
+      fail(node, fmt::format("'{}' must be a node number from 0 to {}", key, count - 1));
+    return int(*v);
+  }
+
+ private:
+  std::string path_;
+  toml::table root_;
+};
+
+}  // namespace genio

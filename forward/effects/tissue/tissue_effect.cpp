@@ -1,0 +1,74 @@
+#include "forward/effects/tissue/tissue_effect.hpp"
+
+#include <limits>
+
+namespace genio {
+
+double TissueEffect::energy(const Positions& x, EffectParameters p) const {
+  if (!present(p)) return 0;
+  double total = 0;
+  BatchShape s;
+  for (size_t b = 0; b < batches_.size(); ++b) {
+    if (!touches(b)) continue;
+    if (!deform(batches_[b], x, s)) return std::numeric_limits<double>::infinity();
+    total += batch_energy(batches_[b], s, tissue(b, p));
+  }
+  return total;
+}
+
+void TissueEffect::add_force(const Positions& x, EffectParameters p, Forces& f) const {
+  if (!present(p)) return;
+  BatchShape s;
+  for (size_t b = 0; b < batches_.size(); ++b)
+    if (touches(b) && deform(batches_[b], x, s)) add_batch_force(batches_[b], s, tissue(b, p), f);
+}
+
+void TissueEffect::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const {
+  if (!present(p)) return;
+  BatchShape s;
+  for (size_t b = 0; b < batches_.size(); ++b) {
+    if (!touches(b) || !deform(batches_[b], x, s)) continue;
+    const BatchTissue t = tissue(b, p);
+    add_batch_stiffness(batches_[b], s, t, batch_pressure(batches_[b], s.volume, t), k);
+  }
+}
+
+void TissueEffect::add_step_stiffness(const Positions& x, const LinearStep& led, EffectParameters p,
+                                      Stiffness& k) const {
+  if (!present(p)) return;
+  BatchShape s;
+  for (size_t b = 0; b < batches_.size(); ++b) {
+    if (!touches(b) || !deform(batches_[b], x, s)) continue;
+    const BatchTissue t = tissue(b, p);
+    lanes::Lane pressure = t.kappa;
+    for (int l = 0; l < lanes::width; ++l) pressure[l] *= led.dilatation[batches_[b].element[l]];
+    add_batch_stiffness(batches_[b], s, t, pressure, k);
+  }
+}
+
+void TissueEffect::add_bulk_modulus(EffectParameters p, Vector& kappa) const {
+  if (!present(p)) return;
+  for (size_t b = 0; b < batches_.size(); ++b) {
+    if (!touches(b)) continue;
+    const BatchTissue t = tissue(b, p);
+    for (int l = 0; l < batches_[b].count; ++l) kappa[batches_[b].element[l]] += t.kappa[l];
+  }
+}
+
+void TissueEffect::add_stiffness_product(const Positions& x, const Vector& v, EffectParameters p,
+                                         Forces& f) const {
+  BatchShape s;
+  for (size_t b = 0; b < batches_.size(); ++b)
+    if (touches(b) && deform(batches_[b], x, s))
+      add_batch_stiffness_product(batches_[b], s, tissue(b, p), v, f);
+}
+
+void TissueEffect::add_force_derivative(const Positions& x, EffectParameters p, int k,
+                                        Forces& df) const {
+  BatchShape s;
+  for (size_t b = 0; b < batches_.size(); ++b)
+    if (touches(b) && deform(batches_[b], x, s))
+      add_batch_force(batches_[b], s, tissue_derivative(b, p, k), df);
+}
+
+}  // namespace genio

@@ -1,0 +1,30 @@
+#pragma once
+// Closest points on triangles.
+
+#include <array>
+#include <memory>
+
+#include "forward/geometry/triangle_surface.hpp"
+
+namespace genio {
+
+/// Barycentric coordinates of the point of triangle (a, b, c) closest to p (Ericson 2005,
+/// Real-Time Collision Detection, section 5.1.5).
+std::array<double, 3> closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
+                                          const Vec3& c);
+
+/// Signed distance to a surface: positive on the side its normals point to. A point that is
+/// closest to the rim of an open surface counts as outside.
+class SurfaceDistance {
+ public:
+  explicit SurfaceDistance(const TriangleSurface& surface);
+  ~SurfaceDistance();
+  /// [m]
+  double operator()(const Vec3& p) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace genio

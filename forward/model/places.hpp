@@ -1,0 +1,17 @@
+#pragma once
+// Where in a tongue an effect may be that has a place.
+
+#include "forward/model/build_effects.hpp"
+
+namespace genio {
+
+/// Patches of tissue along the dorsum and at its sides: anterior, middle, posterior, root, left,
+/// right.
+std::vector<Place> regions(const ModelDescription& description);
+
+/// Bundles that nature has and many models lack, laid out by the landmarks: the horizontal
+/// genioglossus (GGH), chondroglossus of each side, and the transverse bundles of palatoglossus and
+/// glossopharyngeus (Takemoto 2001; Standring 2016, chapter 31).
+std::vector<Place> muscle_courses(const ModelDescription& description);
+
+}  // namespace genio

@@ -1,0 +1,40 @@
+#pragma once
+// A Gaussian within bounds: what a posterior looks like where forces cannot be negative.
+
+#include "forward/base/types.hpp"
+
+namespace genio {
+
+/// An unknown this near a bound sits at it.
+constexpr double at_bound = 2e-4;
+
+/// Density proportional to exp(-slope.d - d.H d / 2), d = z - mode, on lower <= z <= upper, H
+/// positive definite.
+struct BoxGaussian {
+  Vector mode, slope;
+  Matrix hessian;
+  Vector lower, upper;
+};
+
+/// The same Gaussian by its centre, which may lie outside the bounds; the mode is the nearest point
+/// within them.
+BoxGaussian about(const Vector& centre, const Matrix& hessian, const Vector& lower,
+                  const Vector& upper);
+
+/// -1 where the density presses unknown i against its lower bound, 1 against the upper, else 0.
+int pressed(const BoxGaussian& density, Eigen::Index i);
+
+/// Draws `count` samples, a column each, by exact Hamiltonian Monte Carlo (Pakman & Paninski 2014,
+/// J. Comput. Graph. Stat. 23): trajectories of the whitened Gaussian are circles that bounce off
+/// the bounds. Always the same samples for the same arguments. Throws std::invalid_argument where H
+/// is not positive definite.
+Matrix sample(const BoxGaussian& density, int count);
+
+/// A normal cut at lower < upper: its mode, standard deviation and shortest interval that holds
+/// nine in ten.
+struct CutNormal {
+  double mode, sd, low, high;
+};
+CutNormal cut_normal(double centre, double sd, double lower, double upper);
+
+}  // namespace genio

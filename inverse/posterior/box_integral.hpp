@@ -1,0 +1,22 @@
+#pragma once
+// The mass of a Gaussian within bounds.
+
+#include "inverse/posterior/box_gaussian.hpp"
+
+namespace genio {
+
+/// A density integrated between its bounds, H positive definite, with a point mass at each lower
+/// bound beside the even measure between the bounds.
+struct BoxIntegral {
+  double log = 0;
+  /// Of each unknown, all others integrated over: the normal that its own bounds cut.
+  Vector centre, sd;
+};
+
+/// `spikes`: the point masses, 0 for none [length of the unknown].
+BoxIntegral integral(const BoxGaussian& density, const Vector& spikes);
+
+/// Its logarithm without point masses.
+double log_integral(const BoxGaussian& density);
+
+}  // namespace genio

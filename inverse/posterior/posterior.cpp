@@ -1,0 +1,121 @@
+#include "inverse/posterior/posterior.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "inverse/posterior/box_integral.hpp"
+#include "inverse/target/comparison.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double test_level = 0.01;
+
+}  // namespace
+
+LocalPosterior local_posterior(const PriorTerms& prior, const Vector& z, const Vector& gradient,
+                               const Matrix& exact, const Matrix& gauss_newton) {
+  LocalPosterior result{{}, prior.open()};
+  const auto& which = result.which;
+  Matrix h = exact(which, which);
+  // Across a bound that presses the exact Hessian need not be definite.
+  if (Eigen::LLT<Matrix>(h).info() != Eigen::Success) h = gauss_newton(which, which);
+  result.density = {z(which), gradient(which), h, prior.lower(which), prior.upper(which)};
+  // What is left of the slope inside the bounds is how far the optimiser went.
+  for (Eigen::Index i = 0; i < result.density.mode.size(); ++i)
+    if (pressed(result.density, i) == 0) result.density.slope[i] = 0;
+  return result;
+}
+
+BoxGaussian density_of(const PriorTerms& prior) {
+  const auto which = prior.open();
+  const Matrix h = prior.hessian()(which, which);
+  const Vector slope = prior.gradient(prior.lower)(which);  // the fixed ones are at their values
+  const Vector lower = prior.lower(which), upper = prior.upper(which);
+  return about(lower - h.llt().solve(slope), h, lower, upper);
+}
+
+LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
+                       const Matrix& covariance) {
+  LocalPosterior result = posterior;
+  BoxGaussian& d = result.density;
+  const Eigen::LLT<Matrix> factor(d.hessian);
+  const Matrix by_data = factor.solve(jacobian.transpose());
+  Matrix spread = factor.solve(Matrix::Identity(d.hessian.rows(), d.hessian.cols())) +
+                  by_data * covariance * by_data.transpose();
+  spread = 0.5 * (spread + spread.transpose()).eval();
+  const Vector to_centre = factor.solve(d.slope);
+  d.hessian = spread.llt().solve(Matrix::Identity(spread.rows(), spread.cols()));
+  d.hessian = 0.5 * (d.hessian + d.hessian.transpose()).eval();
+  d.slope = d.hessian * to_centre;  // the same centre
+  return result;
+}
+
+MarginalSummary summarise(Vector samples, double mode, double lower, double upper) {
+  std::sort(samples.begin(), samples.end());
+  const Eigen::Index n = samples.size(), inside = Eigen::Index(std::ceil(0.9 * double(n)));
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 0; i + inside <= n; ++i)
+    if (samples[i + inside - 1] - samples[i] < samples[first + inside - 1] - samples[first])
+      first = i;
+  const double mean = samples.mean();
+  MarginalSummary s{std::sqrt((samples.array() - mean).square().mean()),
+                    std::min(mode, samples[first]), std::max(mode, samples[first + inside - 1])};
+  // Where the density does not fall towards a bound, the interval reaches it.
+  const double near = 0.05 * (s.high - s.low);
+  if (s.low - lower < near) s.low = lower;
+  if (upper - s.high < near) s.high = upper;
+  return s;
+}
+
+std::vector<TradeOff> unseen_directions(const Matrix& jacobian, const Matrix& prior_precision,
+                                        const std::vector<Unknown>& unknowns) {
+  constexpr double part = 0.35;  // of a unit direction: less does not name a command
+  std::vector<TradeOff> groups;
+  const Matrix information = jacobian.transpose() * jacobian;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(information, prior_precision);
+  for (Eigen::Index k = 0; k < information.rows(); ++k) {
+    if (eigen.eigenvalues()[k] >= 1) break;  // ascending
+    const Vector v = eigen.eigenvectors().col(k);
+    Eigen::Index largest = 0;
+    v.cwiseAbs().maxCoeff(&largest);
+    TradeOff group;
+    for (Eigen::Index i = 0; i < v.size(); ++i)
+      if (std::abs(v[i]) > part * v.norm())
+        group.push_back({unknowns[size_t(i)].name, v[i] / v[largest] * unknowns[size_t(i)].scale});
+    if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
+      groups.push_back(group);
+  }
+  return groups;
+}
+
+double chi_square_tail(double chi2, double dof) {
+  const double v = 2 / (9 * dof);
+  const double z = (std::cbrt(chi2 / dof) - (1 - v)) / std::sqrt(v);
+  return 0.5 * std::erfc(z / std::sqrt(2.0));
+}
+
+FitTest test_fit(const Vector& r, const Matrix& scatter, double used, double gain) {
+  const double dof = std::max(1.0, double(r.size()) - used);
+  const double chi2 = r.dot(scatter.llt().solve(r)), tail = chi_square_tail(chi2, dof);
+  const bool bounded = gain >= 0.5 * (chi2 - dof);
+  return {chi2 / dof, tail,
+          tail >= test_level ? Verdict::explained
+          : bounded          ? Verdict::unreachable
+                             : Verdict::mismatch};
+}
+
+Estimate estimate(const Unknown& c, double mode, double lower, double upper, const Vector& samples,
+                  const Vector& believed) {
+  Estimate e{c.name, c.value(mode), c.scale, c.unit};
+  const auto s = summarise(samples, mode, lower, upper);
+  const double spread = std::sqrt((believed.array() - believed.mean()).square().mean());
+  e.sd = s.sd * c.slope(c.value(mode)), e.low = c.value(s.low), e.high = c.value(s.high);
+  e.information_bits = std::max(0.0, std::log2(spread / std::max(1e-12, s.sd)));
+  return e;
+}
+
+}  // namespace genio

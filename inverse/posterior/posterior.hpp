@@ -1,0 +1,61 @@
+#pragma once
+// What the data say about the forces beyond the best fit.
+
+#include "inverse/posterior/box_gaussian.hpp"
+#include "inverse/posterior/estimate.hpp"
+#include "inverse/prior/prior.hpp"
+#include "inverse/target/comparison.hpp"
+
+namespace genio {
+
+/// The posterior about an optimum: Gaussian by the Hessian there (by Gauss-Newton's where the exact
+/// one is indefinite), within the bounds. Unknowns that are fixed are left out; `which` names the
+/// rest.
+struct LocalPosterior {
+  BoxGaussian density;
+  std::vector<Eigen::Index> which;
+};
+/// `exact`, `gauss_newton`: the Hessian at z over all unknowns.
+LocalPosterior local_posterior(const PriorTerms& prior, const Vector& z, const Vector& gradient,
+                               const Matrix& exact, const Matrix& gauss_newton);
+
+/// The prior of the unknowns that are not fixed, given the fixed ones.
+BoxGaussian density_of(const PriorTerms& prior);
+
+/// The same where the model errs by `covariance` (of the residuals), which the fit did not know:
+/// the estimate scatters by H^-1 J^T C J H^-1 more (the sandwich of Huber 1967).
+LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
+                       const Matrix& covariance);
+
+/// Standard deviation of samples and the shortest interval that holds 90 % of them and the mode: it
+/// is one-sided where the density does not fall towards a bound, so that a muscle that may well be
+/// at rest is not claimed to pull.
+struct MarginalSummary {
+  double sd, low, high;
+};
+MarginalSummary summarise(Vector samples, double mode, double lower, double upper);
+
+/// Probability that a chi-square variable with `dof` degrees of freedom exceeds `chi2` (Wilson &
+/// Hilferty 1931, accurate to 1e-3 for dof >= 3).
+double chi_square_tail(double chi2, double dof);
+
+/// The chi-square test of a fit, and what it means.
+struct FitTest {
+  double chi2_per_dof, tail;
+  Verdict verdict;
+};
+/// `scatter`: covariance of the residuals; `used`: effective parameters; `gain`: what the objective
+/// would lose, twice, by the Gauss-Newton step of the problem without bounds.
+FitTest test_fit(const Vector& residuals, const Matrix& scatter, double used, double gain);
+
+/// Estimate of an unknown from its mode and samples of its posterior and of its prior.
+Estimate estimate(const Unknown& unknown, double mode, double lower, double upper,
+                  const Vector& samples, const Vector& believed);
+
+/// Directions about which the data say less than the prior: eigenvalues below 1 of the data's
+/// information in units of the prior's precision. Each is a group of commands and how much of each
+/// trades for how much of the others, in their own units, the largest 1 in activation.
+std::vector<TradeOff> unseen_directions(const Matrix& jacobian, const Matrix& prior_precision,
+                                        const std::vector<Unknown>& unknowns);
+
+}  // namespace genio

@@ -1,0 +1,13 @@
+#pragma once
+#include "inverse/prior/prior.hpp"
+
+namespace genio {
+
+/// Reads `path`: a TOML file, or a CSV of EMG alone. In TOML: effort_sd, symmetry_sd,
+/// smoothness_sd, emg = "file.csv" (beside it), [cocontraction] mean, sd; [fixed_N] NAME = force;
+/// [parameter."jaw_opening.angle"] mean, sd; [head_pose] shift_sd_mm, turn_sd_deg.
+/// EMG: one header line `muscle,mean,sd` (activations, 0 to 1). Throws InputError naming file,
+/// line and field.
+Prior read_prior(const std::string& path);
+
+}  // namespace genio

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "inverse/recording/formats/contour_formats.hpp"
+#include "inverse/recording/table_text.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// Fields of a row by its separator, an empty one at the end dropped: tab or comma.
+std::vector<std::string> fields_of(const std::string& line, char separator) {
+  auto fields = split_fields(line, separator);
+  while (!fields.empty() && trimmed(fields.back()).empty()) fields.pop_back();
+  return fields;
+}
+
+/// "FRAME12" or "12" to 12; 0 where it is no frame's name.
+int frame_number(std::string text) {
+  text = trimmed(text);
+  if (text.starts_with("FRAME")) text.erase(0, 5);
+  double n = 0;
+  return parse_number(text, n) && n == std::floor(n) && n > 0 && n < 1e9 ? int(n) : 0;
+}
+
+}  // namespace
+
+/// A row a point, a pair of columns a frame: EdgeTrak's .con without a header, GetContours' table
+/// for EdgeTrak with two, and plain tables separated by commas.
+RawContours read_edgetrak(const std::string& path) {
+  TableLines lines(path);
+  RawContours raw{{}, {"", "", ""}};
+  raw.file.format = ContourFormat::edgetrak, raw.file.model_frame = false;
+  auto& frames = raw.file.frames;
+  std::vector<int> numbers;
+  char separator = 0;
+  size_t columns = 0;
+  for (std::string line; lines.next(line);) {
+    if (trimmed(line).empty()) continue;
+    if (separator == 0) separator = line.find('\t') != std::string::npos ? '\t' : ',';
+    if (numbers.empty() && line.starts_with("FRAME")) {
+      for (const std::string& field : split_fields(line, separator))
+        if (const int n = frame_number(field)) numbers.push_back(n);
+      continue;
+    }
+    auto fields = fields_of(line, separator);
+    if (frames.empty() && !fields.empty() && trimmed(fields.front()) == "X") continue;
+    // EdgeTrak indents its rows.
+    size_t first = 0;
+    while (first < fields.size() && trimmed(fields[first]).empty()) ++first;
+    fields.erase(fields.begin(), fields.begin() + long(first));
+    if (columns == 0) {
+      columns = fields.size();
+      if (columns % 2 != 0)
+        lines.fail(fmt::format("{} columns; expected pairs x, y, one a frame", columns));
+      frames.resize(columns / 2);
+      for (size_t k = 0; k < frames.size(); ++k)
+        frames[k].number = k < numbers.size() ? numbers[k] : int(k + 1);
+    }
+    if (fields.size() != columns)
+      lines.fail(fmt::format("{} fields; the first row has {}", fields.size(), columns));
+    for (size_t k = 0; k < frames.size(); ++k) {
+      const std::string tx = trimmed(fields[2 * k]), ty = trimmed(fields[2 * k + 1]);
+      if (tx == "NaN" || tx.empty()) continue;
+      double x = 0, y = 0;
+      if (!parse_number(tx, x) || !parse_number(ty, y))
+        lines.fail(fmt::format("fields {}, {}: '{}', '{}'; expected two numbers", 2 * k + 1,
+                               2 * k + 2, tx, ty));
+      frames[k].points.push_back({{x, not_given, y}, 0, "curve"});
+    }
+  }
+  if (frames.empty()) lines.fail("the file has no point");
+  return raw;
+}
+
+}  // namespace genio

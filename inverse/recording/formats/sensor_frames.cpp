@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "inverse/recording/formats/contour_formats.hpp"
+
+namespace genio {
+namespace {
+
+std::string sensor_list(const SensorTable& table) {
+  std::string list;
+  for (size_t c = 0; c < table.names.size(); ++c) {
+    Vec3 sum = Vec3::Zero();
+    int seen = 0;
+    for (const auto& row : table.samples)
+      if (row[c].allFinite()) sum += row[c], ++seen;
+    list += seen == 0 ? fmt::format(" {}: never on;", table.names[c])
+                      : fmt::format(" {}: about ({:.1f}, {:.1f}, {:.1f});", table.names[c],
+                                    sum[0] / seen, sum[1] / seen, sum[2] / seen);
+  }
+  if (!list.empty()) list.pop_back();
+  return list;
+}
+
+}  // namespace
+
+RawContours sensor_frames(const std::string& path, const SensorTable& table, const ReadOptions& o) {
+  if (o.sensors.empty())
+    throw InputError(
+        fmt::format("{}: say what its sensors are stuck to, --sensors 3=dorsum,5=tip (tip, blade, "
+                    "dorsum, root, "
+                    "node:N); it has{}",
+                    path, sensor_list(table)));
+  std::vector<std::pair<size_t, std::string>> used;
+  for (const auto& [sensor, what] : o.sensors) {
+    const auto it = std::find(table.names.begin(), table.names.end(), sensor);
+    if (it == table.names.end())
+      throw InputError(
+          fmt::format("--sensors {}={}: {} has{}", sensor, what, path, sensor_list(table)));
+    used.emplace_back(size_t(it - table.names.begin()), what);
+  }
+  const double rate = o.rate_hz > 0 ? o.rate_hz : table.rate_hz;
+  RawContours raw{{}, {"mm", "right", "up"}};
+  raw.file.format = ContourFormat::ema, raw.file.model_frame = false;
+  if (rate == 0)
+    raw.file.remarks.push_back("no sampling rate in the file: times are 0 (--rate-hz)");
+  for (size_t s = 0; s < table.samples.size(); ++s) {
+    ContourFrame& frame = raw.file.frames.emplace_back();
+    frame.number = int(s) + 1;
+    if (rate > 0) frame.time_s = double(s) / rate;
+    for (const auto& [c, what] : used) {
+      const Vec3& p = table.samples[s][c];
+      if (!p.allFinite()) continue;
+      frame.points.push_back({p, 0, what});
+    }
+    if (frame.points.empty()) frame.note = "no sensor has a value";
+  }
+  return raw;
+}
+
+}  // namespace genio

@@ -1,0 +1,160 @@
+#include "inverse/recording/frame_target.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "forward/base/nearest_name.hpp"
+#include "forward/effects/surroundings/contact.hpp"
+#include "inverse/target/tissue_point.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double too_far = 0.12;  // [m] from the middle of the tongue
+
+bool inside_bone(const Model& model, const Vec3& p) {
+  for (const auto& e : model.effects)
+    if (const auto* contact = dynamic_cast<const Contact*>(e.get()))
+      if (contact->distance(Vec3(p[0], 0, p[2])) < 0) return true;
+  return false;
+}
+
+int flesh_node(const Model& model, const std::string& name) {
+  if (name == "tip") return model.landmarks.tip;
+  if (name == "dorsum") return model.landmarks.dorsum;
+  if (name == "root") return model.landmarks.root;
+  if (name == "blade") {  // a third of the way from tip to dorsum along the line
+    const auto& line = model.midsagittal;
+    const auto tip = std::find(line.begin(), line.end(), model.landmarks.tip) - line.begin();
+    const auto top = std::find(line.begin(), line.end(), model.landmarks.dorsum) - line.begin();
+    return line[size_t(tip + (top - tip + 1) / 3)];
+  }
+  if (name.starts_with("node:")) {
+    char* end = nullptr;
+    const long n = std::strtol(name.c_str() + 5, &end, 10);
+    if (name.size() > 5 && !*end && n >= 0 && n < long(model.mesh.nodes.size())) return int(n);
+    throw InputError(
+        fmt::format("kind '{}': expected node:0 to node:{}", name, model.mesh.nodes.size() - 1));
+  }
+  throw InputError(fmt::format("kind '{}': unknown; did you mean {}?", name,
+                               nearest_name(name, {"curve", "surface", "volume", "tip", "blade",
+                                                   "dorsum", "root", "node:0"})));
+}
+
+std::vector<std::pair<int, double>> flesh(const Model& model, const ContourPoint& p) {
+  if (p.kind == "volume") return tissue_point(model.mesh, p.rest);
+  return {{flesh_node(model, p.kind), 1.0}};
+}
+
+}  // namespace
+
+ContourFrame registered(const Model& model, const ContourFrame& frame,
+                        const Similarity& transform) {
+  ContourFrame result = frame;
+  auto& points = result.points;
+  for (ContourPoint& p : points) {
+    const Vec2 moved = transform(Vec2(p.position[0], p.position[2]));
+    p.position[0] = moved[0], p.position[2] = moved[1];
+  }
+  if (std::any_of(points.begin(), points.end(),
+                  [](const ContourPoint& p) { return p.kind != "curve"; }))
+    return result;
+  // The innermost bad point of each outer third decides: what lies beyond it is no better.
+  const size_t size = points.size();
+  size_t first = 0, last = size;
+  for (size_t i = 0; i < size / 3; ++i) {
+    if (inside_bone(model, points[i].position)) first = i + 1;
+    if (inside_bone(model, points[size - 1 - i].position)) last = size - 1 - i;
+  }
+  points = std::vector<ContourPoint>(points.begin() + long(first), points.begin() + long(last));
+  if (points.size() < size)
+    result.note = fmt::format("{} end points inside bone left out", size - points.size());
+  return result;
+}
+
+Target make_target(const Model& model, const ContourFrame& frame, double noise) {
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& x : model.mesh.nodes) middle += x / double(model.mesh.nodes.size());
+  Target target;
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    const ContourPoint& p = frame.points[i];
+    const Vec3& q = p.position;
+    const double sigma = p.sigma > 0 ? p.sigma : noise;
+    const Vec3 flat(q[0], std::isnan(q[1]) ? 0.0 : q[1], q[2]);
+    if (!((flat - middle).norm() < too_far))
+      throw InputError(fmt::format(
+          "frame {}, point {}: ({:.4g}, {:.4g}) mm lies {:.4g} mm from the middle of the tongue; "
+          "expected millimetres in the model's frame. Wrong units, or not registered?",
+          frame.number, i + 1, 1e3 * q[0], 1e3 * q[2], 1e3 * (flat - middle).norm()));
+    if (p.kind == "curve") target.curve.push_back({Vec2(q[0], q[2]), sigma});
+    else if (p.kind == "surface") target.surface.push_back({q, sigma, p.slice});
+    else target.flesh.push_back({flesh(model, p), q, sigma, p.kind});
+  }
+  if (frame.points.size() > 2) {
+    Vec3 low = Vec3::Constant(1e9), high = -low;
+    for (const auto& p : frame.points) {
+      const Vec3 flat(p.position[0], 0, p.position[2]);
+      low = low.cwiseMin(flat), high = high.cwiseMax(flat);
+    }
+    if ((high - low).norm() < 1e-3)
+      throw InputError(fmt::format(
+          "frame {}: all points lie within {:.3g} mm; a tongue contour has 20 to 150 mm. Wrong "
+          "units? Expected millimetres",
+          frame.number, 1e3 * (high - low).norm()));
+  }
+  return target;
+}
+
+RegisteredFile register_file(const Model& model, ContourFile file, const std::string& palate_path,
+                             const ReadOptions& palate_options) {
+  const ContourFile palate_file = read_contours(palate_path, palate_options);
+  std::vector<Vec2> palate;
+  for (const auto& line : midsagittal_points(palate_file)) {
+    palate.insert(palate.end(), line.begin(), line.end());
+    if (palate_file.format != ContourFormat::ema) break;  // a trace is one frame, a sweep all
+  }
+  if (palate.empty()) throw InputError(palate_path + ": no palate point has a value");
+  Registration as_is = register_by_palate(model, palate, midsagittal_points(file));
+  if (file.facing_known) return {std::move(file), as_is};
+  for (Vec2& q : palate) q[0] = -q[0];
+  ContourFile turned = mirrored(file);
+  const Registration other = register_by_palate(model, palate, midsagittal_points(turned));
+  const bool left = as_is.cost <= other.cost;
+  const auto said = fmt::format("face looks {} (fits the palate better: cost {:.0f}, not {:.0f})",
+                                left ? "left" : "right", std::min(as_is.cost, other.cost),
+                                std::max(as_is.cost, other.cost));
+  RegisteredFile result{std::move(left ? file : turned), left ? as_is : other};
+  result.file.facing_known = true;
+  result.file.remarks.push_back(said);
+  remark_order(result.file);
+  return result;
+}
+
+std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {
+  std::vector<std::vector<Vec2>> result;
+  for (const auto& frame : file.frames) {
+    std::vector<Vec2> line;
+    for (const auto& p : frame.points)
+      if (p.kind != "surface" && p.kind != "volume")
+        line.emplace_back(p.position[0], p.position[2]);
+    if (!line.empty()) result.push_back(std::move(line));
+  }
+  return result;
+}
+
+double default_noise(ContourFormat format) {
+  switch (format) {
+    case ContourFormat::aaa:
+    case ContourFormat::getcontours:
+    case ContourFormat::edgetrak:
+      return 1.5e-3;
+    case ContourFormat::surface:
+      return 1e-3;
+    default:
+      return 0.5e-3;
+  }
+}
+
+}  // namespace genio

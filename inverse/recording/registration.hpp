@@ -1,0 +1,33 @@
+#pragma once
+// Bringing a recording's own frame into the model's, by the palate both know.
+
+#include <vector>
+
+#include "inverse/recording/contour_file.hpp"
+#include "inverse/target/tongue_line.hpp"
+
+namespace genio {
+
+/// q -> scale R(angle) q + shift in the midsagittal plane.
+struct Similarity {
+  double scale = 1, angle = 0;  ///< [-], [rad], counter-clockwise with x back and z up
+  Vec2 shift = Vec2::Zero();    ///< [m]
+  Vec2 operator()(const Vec2& q) const;
+};
+
+struct Registration {
+  Similarity transform;
+  double palate_rms = 0;  ///< of the palate trace from the model's palate, after fitting [m]
+  double cost = 0;        ///< what was minimised: squares in units of their standard deviations
+};
+
+/// Rigid motion and scale that lay the palate trace onto the model's midsagittal palate. Along a
+/// smooth arch that leaves a slide, a tilt and the scale nearly free: on real ultrasound two
+/// registrations fit the palate equally well (RMS 1 mm). So scale and tilt have weak priors (6 %
+/// and 20 degrees), and the contours of all frames together decide: they lie about the rest shape
+/// (5 mm, as much as 60 points). Throws InputError when the model has no palate or the trace fewer
+/// than 5 points.
+Registration register_by_palate(const Model& model, const std::vector<Vec2>& palate_trace,
+                                const std::vector<std::vector<Vec2>>& contours);
+
+}  // namespace genio

@@ -1,0 +1,37 @@
+#pragma once
+// What one worker keeps from inversion to inversion.
+
+#include "inverse/search/atlas.hpp"
+#include "inverse/search/symmetric_route.hpp"
+
+namespace genio {
+
+/// A model with the scratch of its solves and its atlas.
+struct TongueState {
+  explicit TongueState(const Model& m) : model(&m), workspace(m) {}
+
+  const Model* model;
+  Workspace workspace;
+  AtlasCache atlas;
+};
+
+/// Whole and half tongue of one model, each made when it is first needed. One a thread; the model
+/// must outlive it.
+class InferWorkspace {
+ public:
+  explicit InferWorkspace(const Model& model) : model_(model) {}
+
+  TongueState& whole();
+  /// nullptr where the model, or what the prior estimates along, is not symmetric.
+  TongueState* half(const Prior& prior);
+  /// Of half(); only after it gave one.
+  const Mirror& mirror() const { return *mirror_; }
+
+ private:
+  const Model& model_;
+  std::optional<TongueState> whole_, half_;
+  std::unique_ptr<const Mirror> mirror_;
+  std::optional<std::vector<std::string>> asked_;  // the parameters that mirror_ is for
+};
+
+}  // namespace genio

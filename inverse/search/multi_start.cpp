@@ -1,0 +1,142 @@
+#include "inverse/search/multi_start.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "inverse/posterior/posterior.hpp"
+#include "inverse/search/full_space.hpp"
+#include "inverse/search/global_starts.hpp"
+#include "inverse/target/comparison.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double least_weight = 0.01;  // of an alternative worth telling
+constexpr double apart = 3;            // posterior standard deviations between distinct optima
+constexpr int patience = 4;            // descents for a target that no answer explains
+constexpr int warm_patience = 2;       // the same with a start of the caller's
+
+/// Draws of the prior within its bounds, a column each.
+Matrix prior_draws(const PriorTerms& prior, int count) {
+  Matrix result = prior.lower.replicate(1, count);  // of the fixed ones that is the value
+  result(prior.open(), Eigen::all) = sample(density_of(prior), count);
+  return result;
+}
+
+/// True where some unknown of `a` lies beyond the spread that either answer claims.
+bool distinct(const Answer& a, const Answer& b) {
+  for (size_t i = 0; i < a.muscles.size(); ++i) {
+    const auto &p = a.muscles[i], &q = b.muscles[i];
+    const double spread = std::max({p.sd, q.sd, 1e-3 * p.maximum});
+    if (std::abs(p.best - q.best) > apart * spread) return true;
+  }
+  // The same forces may hold two shapes.
+  return (a.shape - b.shape).cwiseAbs().maxCoeff() > 1e-3;
+}
+
+/// Where to start from when nothing better is known, in the order to try.
+std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, const Prior& prior,
+                                  TongueState& tongue, const InferOptions& options, int count) {
+  std::vector<Atlas::Entry> starts;
+  const bool bilateral = options.bilateral.value_or(target.midsagittal());
+  const auto unknowns = unknowns_of(model, prior, bilateral);
+  const PriorTerms terms = prior_terms(prior, unknowns);
+  const Atlas& atlas = tongue.atlas.get(model, prior, bilateral, tongue.workspace);
+  const Comparison comparison(model, target);
+  const auto near = nearest(atlas, comparison, unknowns, terms);
+  // The nearest known shape first; then, in halves, the valleys that its neighbours foretell and
+  // the other shapes.
+  if (!near.empty()) starts.push_back(*near.front());
+  for (auto& valley : valleys(atlas, comparison, unknowns, terms, count / 2))
+    if (int(starts.size()) < count) starts.push_back(std::move(valley));
+  for (size_t k = 1; k < near.size() && int(starts.size()) < count; ++k) starts.push_back(*near[k]);
+  const int drawn = count - int(starts.size());
+  const Matrix draws = prior_draws(terms, std::max(0, drawn));
+  for (int k = 0; k < drawn; ++k) starts.push_back({draws.col(k), {}, {}});
+  return starts;
+}
+
+/// The likeliest of `found`, the distinct others as its alternatives.
+Answer weighed(std::vector<Answer> found) {
+  std::stable_sort(found.begin(), found.end(), [](const Answer& a, const Answer& b) {
+    return a.log_evidence > b.log_evidence;
+  });
+  std::vector<Answer> kept;
+  for (Answer& a : found)
+    if (std::none_of(kept.begin(), kept.end(), [&](const Answer& k) { return !distinct(a, k); }))
+      kept.push_back(std::move(a));
+  double sum = 0;
+  for (const Answer& a : kept) sum += std::exp(a.log_evidence - kept.front().log_evidence);
+  Answer best = std::move(kept.front());
+  best.weight = 1 / sum;
+  for (size_t k = 1; k < kept.size(); ++k)
+    if (const double w = std::exp(kept[k].log_evidence - best.log_evidence) / sum;
+        w >= least_weight)
+      best.alternatives.push_back({w, kept[k].muscles, kept[k].rms, kept[k].shape});
+  return best;
+}
+
+Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue,
+                   const InferOptions& options, const StartOptions& start_options) {
+  const Model& model = *tongue.model;
+  const bool until_explained = start_options.starts == 0;
+  const bool given = options.start.size() > 0;
+  const int most = !until_explained ? start_options.starts : given ? warm_patience : patience;
+  std::vector<Atlas::Entry> starts;
+  if (given)
+    starts.push_back(
+        {options.start, options.start_shape.value_or(Positions()), options.start_by_unknown});
+  std::vector<Answer> found;
+  Answer last;
+  const auto started = std::chrono::steady_clock::now();
+  const auto wall = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  };
+  int iterations = 0, factorizations = 0, solves = 0;
+  for (int k = 0; k < most; ++k) {
+    if (size_t(k) == starts.size()) {  // not before they are needed: the nearest, then all others
+      const bool first = k == int(given);
+      auto more = guesses(model, target, prior, tongue, options, first ? 1 : most - int(given));
+      starts.insert(starts.end(), more.begin() + (first ? 0 : 1), more.end());
+    }
+    const Atlas::Entry& start = starts[size_t(k)];
+    InferOptions here = options;
+    here.start = start.unknowns;
+    here.start_shape.reset();
+    if (start.shape.size() > 0) here.start_shape = start.shape;
+    here.start_by_unknown = start.by_unknown;
+    here.rough_start = start.shape.size() == 0;
+    if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - wall()) <= 0) break;
+    last = (options.full_space ? infer_full_space : infer)(model, target, prior, tongue.workspace,
+                                                           here);
+    iterations += last.iterations;
+    factorizations += last.factorizations, solves += last.forward_solves;
+    if (last.status == InferStatus::converged) found.push_back(last);
+    if (last.status == InferStatus::cancelled || last.status == InferStatus::deadline) break;
+    if (until_explained && last.verdict == Verdict::explained) break;
+  }
+  Answer best = found.empty() ? last : weighed(std::move(found));
+  best.wall_s = wall(), best.iterations = iterations;
+  best.factorizations = factorizations, best.forward_solves = solves;
+  return best;
+}
+
+}  // namespace
+
+Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
+                         InferWorkspace& ws, const InferOptions& options,
+                         const StartOptions& start_options) {
+  if (target.empty()) throw InputError("the target has no points");
+  if (fits_half_tongue(target, prior, options)) {
+    prior_terms(prior, unknowns_of(model, prior, true));  // errors speak of the whole tongue
+    if (TongueState* half = ws.half(prior)) {
+      const Mirror& mirror = ws.mirror();
+      return whole_answer(mirror, from_starts(half_target(mirror, target), half_prior(prior), *half,
+                                              half_options(mirror, options), start_options));
+    }
+  }
+  return from_starts(target, prior, ws.whole(), options, start_options);
+}
+
+}  // namespace genio

@@ -1,0 +1,200 @@
+#include "inverse/sequence/motion_inversion.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "inverse/sequence/motion_problem.hpp"
+#include "inverse/shape/summary.hpp"
+#include "inverse/target/comparison.hpp"
+
+namespace genio {
+namespace {
+
+constexpr int sample_count = 1000;
+constexpr double static_part = 0.15;  // of the work: the answers without motion
+
+void check(const Model& model, const std::vector<MotionFrame>& frames, const Prior& prior) {
+  if (frames.empty()) throw InputError("a movement needs at least one frame");
+  double last = 0;
+  for (size_t k = 0; k < frames.size(); ++k) {
+    if (frames[k].target.empty()) throw InputError(fmt::format("frame {}: has no points", k + 1));
+    if (!(frames[k].time_s > last))
+      throw InputError(
+          fmt::format("frame {}: time {} s; a movement starts at 0, and its frames rise in time",
+                      k + 1, frames[k].time_s));
+    last = frames[k].time_s;
+  }
+  if (prior.head_pose)
+    throw InputError("dynamic inversion takes the head pose as given: leave [head_pose] out");
+  if (!find_effect(model, "viscosity"))
+    throw InputError(model.name + ": a movement needs [effect.viscosity] in the model");
+}
+
+/// Unknowns at each knot, linear in time between the static answers of the frames.
+Vector static_start(const Model& model, const std::vector<MotionFrame>& frames, const Prior& prior,
+                    InferWorkspace& ws, const MotionOptions& o, const MotionProblem& problem) {
+  const auto n = Eigen::Index(problem.unknowns().size());
+  std::vector<double> times;
+  std::vector<Vector> answers;
+  if (o.from_rest) times.push_back(0), answers.push_back(problem.lower().head(n));
+  InferOptions infer = o.infer;
+  for (const MotionFrame& f : frames) {
+    const Answer a = infer_from_starts(model, f.target, prior, ws, infer, {1});
+    if (a.status != InferStatus::converged) continue;
+    times.push_back(f.time_s), answers.push_back(a.activations);
+    start_from(a, infer);
+    if (o.progress)
+      o.progress(static_part * double(times.size()) / double(frames.size() + 1), "without motion");
+  }
+  const auto& knots = problem.controls().knots;
+  Vector u = Vector::Zero(problem.controls().unknowns());
+  if (answers.empty()) return u;
+  const CommandsOverTime between{std::move(times), std::move(answers)};
+  for (size_t j = 0; j < knots.size(); ++j)
+    u.segment(n * Eigen::Index(j), n) = between.at(knots[j]);
+  return u;
+}
+
+/// Posterior of all knots together, within bounds, widened by the model's error.
+void summarise(MotionProblem& problem, LocalProblem& local, const Vector& u,
+               const ModelError& error, MotionAnswer& answer) {
+  const auto n = Eigen::Index(problem.unknowns().size());
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    if (problem.lower()[i] < problem.upper()[i]) open.push_back(i);
+  const Matrix h = Eigen::SparseMatrix<double>(local.hessian(u).selfadjointView<Eigen::Lower>());
+  Vector slope;
+  local.gradient(u, slope);
+  const Matrix j = local.jacobian(u);
+  const auto rows = j.rows();
+  Matrix wide = Matrix::Zero(rows, rows), left = wide;
+  Vector residuals(rows);
+  Eigen::Index first = 0;
+  for (size_t k = 0; k < answer.frames.size(); ++k) {
+    const Residuals& r = answer.frames[k].residuals;
+    const auto count = r.values.size();
+    const double way = way_from_rest(problem.comparisons()[k], answer.frames[k].shape);
+    const auto erring = [&](double part) {
+      return model_error_covariance(r, std::max(error.least, part * way), error.length);
+    };
+    wide.block(first, first, count, count) = erring(error.part);
+    left.block(first, first, count, count) = erring(error.left);
+    residuals.segment(first, count) = r.values;
+    first += count;
+  }
+  LocalPosterior narrow{
+      {u(open), slope(open), h(open, open), problem.lower()(open), problem.upper()(open)}, open};
+  std::vector<Eigen::Index> free;
+  for (size_t i = 0; i < open.size(); ++i) {
+    const int side = pressed(narrow.density, Eigen::Index(i));
+    if (side == 0) narrow.density.slope[Eigen::Index(i)] = 0, free.push_back(open[i]);
+  }
+  const Matrix samples = sample(widened(narrow, j(Eigen::all, open), wide).density, sample_count);
+  const Matrix prior_precision =
+      Matrix(problem.prior().rows.transpose() * problem.prior().rows)(open, open);
+  const Matrix believed = sample({u(open), Vector::Zero(Eigen::Index(open.size())), prior_precision,
+                                  problem.lower()(open), problem.upper()(open)},
+                                 sample_count);
+  answer.estimates.resize(answer.knots_s.size());
+  for (size_t knot = 0, f = 0; knot < answer.knots_s.size(); ++knot)
+    for (Eigen::Index c = 0; c < n; ++c) {
+      const Eigen::Index i = n * Eigen::Index(knot) + c;
+      const Unknown& unknown = problem.unknowns()[size_t(c)];
+      Estimate e{unknown.name, u[i] * unknown.scale, unknown.scale, unknown.unit};
+      e.low = e.high = e.best, e.fixed = true;
+      if (f < open.size() && open[f] == i) {
+        e = estimate(unknown, u[i], problem.lower()[i], problem.upper()[i],
+                     samples.row(Eigen::Index(f)), believed.row(Eigen::Index(f)));
+        const int side = pressed(narrow.density, Eigen::Index(f));
+        e.at_lower = side<0, e.at_upper = side> 0;
+        ++f;
+      }
+      answer.estimates[knot].push_back(std::move(e));
+    }
+  const Matrix j_free = j(Eigen::all, free);
+  const double used =
+      free.empty() ? 0.0 : (j_free * Matrix(h(free, free)).llt().solve(j_free.transpose())).trace();
+  const FitTest test = test_fit(residuals, left + Matrix::Identity(rows, rows), used,
+                                slope(open).dot(Matrix(h(open, open)).llt().solve(slope(open))));
+  answer.chi2_per_dof = test.chi2_per_dof, answer.verdict = test.verdict;
+  answer.message = fmt::format("misfit {} noise (p = {:.2g})",
+                               test.verdict == Verdict::explained ? "within" : "beyond", test.tail);
+}
+
+MotionAnswer unfolded(const Mirror& mirror, MotionAnswer answer) {
+  for (auto& knot : answer.estimates) double_forces(knot);
+  for (auto& f : answer.frames) f.shape = mirror.whole(f.shape);
+  for (Instant& i : answer.trajectory.instants) {
+    i.x = mirror.whole(i.x), i.velocity = mirror.whole(i.velocity);
+    i.acceleration = mirror.whole(i.acceleration);
+    i.kinetic *= 2, i.potential *= 2, i.dissipated *= 2, i.work_done *= 2;
+  }
+  return answer;
+}
+
+}  // namespace
+
+MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& frames,
+                          const Prior& prior, InferWorkspace& ws, const MotionOptions& options) {
+  check(model, frames, prior);
+  MotionOptions o = options;
+  const auto all = [&](auto what) { return std::all_of(frames.begin(), frames.end(), what); };
+  o.infer.bilateral = options.infer.bilateral.value_or(
+      all([](const MotionFrame& f) { return f.target.midsagittal(); }));
+  TongueState* half =
+      all([&](const MotionFrame& f) { return fits_half_tongue(f.target, prior, o.infer); })
+          ? ws.half(prior)
+          : nullptr;
+  TongueState& tongue = half ? *half : ws.whole();
+  std::vector<MotionFrame> own = frames;
+  if (half)
+    for (MotionFrame& f : own) f.target = half_target(ws.mirror(), f.target);
+  MotionAnswer answer;
+  const int before = tongue.workspace.cholesky.factorizations();
+  MotionProblem problem(*tongue.model, own, half ? half_prior(prior) : prior, o, tongue.workspace);
+  const auto n = Eigen::Index(problem.unknowns().size());
+  answer.knots_s = problem.controls().knots;
+  Vector start(problem.controls().unknowns());
+  if (fits(o.known, answer.knots_s.size(), n))
+    for (size_t j = 0; j < o.known.size(); ++j) start.segment(n * Eigen::Index(j), n) = o.known[j];
+  else start = static_start(model, frames, prior, ws, o, problem);
+  start = start.cwiseMax(problem.lower()).cwiseMin(problem.upper());
+
+  DescentOptions how{o.infer.max_iterations, 1e-3, {}};
+  how.progress = [&](int step, double rms) {
+    if (o.progress)
+      o.progress(1 - (1 - static_part) * std::pow(0.6, step),
+                 fmt::format("step {}, RMS {:.2f} mm", step, 1e3 * rms));
+  };
+  const DescentResult r = descend(problem, start, how);
+  answer.iterations = r.solver_iterations;
+  answer.message = r.message;
+  if (r.converged) {
+    // A trial may have been the latest motion.
+    const bool again = problem.value(r.u).has_value();
+    answer.status = again ? InferStatus::converged : InferStatus::failed;
+    if (again) {
+      answer.trajectory = problem.trajectory(), answer.rms = problem.rms();
+      for (size_t k = 0; k < own.size(); ++k)
+        answer.frames.push_back(
+            {own[k].time_s, shape_at(answer.trajectory, own[k].time_s), problem.residuals()[k]});
+      answer.unknowns = by_point(r.u, n);
+      summarise(problem, dynamic_cast<LocalProblem&>(*r.local), r.u, o.infer.model_error, answer);
+    } else {
+      answer.message = problem.last_failure();
+    }
+  } else if (problem.stopped()) {
+    answer.status = problem.stop_reason();
+    answer.message = answer.status == InferStatus::deadline ? "the deadline passed"
+                                                            : "cancelled by the requester";
+  }
+  answer.simulations = problem.simulations();
+  answer.factorizations = tongue.workspace.cholesky.factorizations() - before;
+  answer.wall_s = problem.seconds();
+  return half ? unfolded(ws.mirror(), std::move(answer)) : answer;
+}
+
+}  // namespace genio

@@ -1,0 +1,26 @@
+#pragma once
+// An answer from the optimum of an objective.
+
+#include "inverse/posterior/posterior.hpp"
+#include "inverse/shape/objective.hpp"
+
+namespace genio {
+
+/// The posterior about an optimum of the objective.
+LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint& optimum);
+
+/// How far the shape's midsagittal line lies from rest, root mean square [m]: what the model's
+/// error is a part of.
+double way_from_rest(const Comparison& comparison, const Positions& x);
+
+/// Fills estimates, unidentified groups, chi2, verdict and evidence of `answer` from the optimum's
+/// derivatives.
+///
+/// Verdict by the chi-square test at the 1 % level of r.(I + C)^-1 r, r the residuals and C what a
+/// fit leaves of the model's own error, with rows minus effective parameters as degrees of freedom:
+/// passed is `explained`. Otherwise `unreachable` when the Gauss-Newton step of the problem without
+/// bounds would take away at least half of the excess (the bounds stop it), else `mismatch`.
+void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
+                         const Comparison& comparison, const ModelError& error, Answer& answer);
+
+}  // namespace genio

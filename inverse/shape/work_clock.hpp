@@ -1,0 +1,33 @@
+#pragma once
+#include <chrono>
+
+#include "inverse/shape/infer.hpp"
+
+namespace genio {
+
+/// How long a piece of work has run, and whether its requester still wants it. Once stopped it
+/// stays so. `options` must outlive it.
+class WorkClock {
+ public:
+  explicit WorkClock(const InferOptions& options) : options_(options) {}
+
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+  }
+  bool stopped() {
+    if (reason_ != InferStatus::converged) return true;
+    if (options_.cancelled && options_.cancelled()) reason_ = InferStatus::cancelled;
+    else if (options_.deadline_s > 0 && seconds() > options_.deadline_s)
+      reason_ = InferStatus::deadline;
+    return reason_ != InferStatus::converged;
+  }
+  /// Why it stopped; converged while it has not.
+  InferStatus reason() const { return reason_; }
+
+ private:
+  const InferOptions& options_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  InferStatus reason_ = InferStatus::converged;
+};
+
+}  // namespace genio

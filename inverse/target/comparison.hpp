@@ -1,0 +1,75 @@
+#pragma once
+// How far a shape is from what was measured.
+
+#include <utility>
+#include <vector>
+
+#include "inverse/target/facets.hpp"
+#include "inverse/target/head_pose.hpp"
+#include "inverse/target/target.hpp"
+
+namespace genio {
+
+/// How wrong the model itself may be, as a smooth Gaussian field on the tongue's surface: other
+/// anatomy, fibre directions, discretisation. Set by `genio bench blind`.
+struct ModelError {
+  double part = 0.33;     ///< standard deviation, of the line's way from rest (root mean square)
+  double left = 0.05;     ///< the same of what the fit cannot absorb, for the verdict
+  double least = 1e-4;    ///< [m]
+  double length = 0.012;  ///< of correlation [m]
+};
+
+/// Noise-weighted residuals and their derivatives.
+struct Residuals {
+  /// Distance over sigma r; with Student's t noise sign(r) sqrt(nu log(1 + r^2 / nu)), whose half
+  /// square is the log-likelihood's loss (Lange, Little & Taylor 1989, for fixed nu, scaled to unit
+  /// curvature at 0).
+  Vector values;
+  std::vector<std::vector<std::pair<int, Vec3>>>
+      gradient;  ///< d value / d x_node [1/m], a row each
+  Matrix pose;   ///< d value / d (shift x, shift z, turn), a row each
+  struct Row {
+    int point;     ///< index into places
+    int axis;      ///< 0 to 2: along x, y, z; -1: across the surface
+    double scale;  ///< d value / d distance [1/m]
+  };
+  std::vector<Row> rows;
+  Vector distances;          ///< unweighted, one a point [m]
+  std::vector<Vec3> places;  ///< where on the model, one a point [m]
+  int outliers = 0;          ///< values beyond 3 sigma
+  double rms = 0, max = 0;   ///< of distances [m]
+};
+
+/// Compares shapes with a target. Const; serves any number of threads.
+class Comparison {
+ public:
+  /// `smoothing` [m]: a surface point's signed distance is the mean over twelve places that far
+  /// about it. Faces meet at edges, and with hundreds of points each of which has to cross some, a
+  /// descent would stop at every other edge; misfit_curvature() knows of no smoothing.
+  Comparison(const Model& model, Target target, double smoothing = 0);
+  Residuals operator()(const Positions& x, const HeadPose& pose = {}) const;
+  const Target& target() const { return target_; }
+  const TongueLine& line() const { return line_; }
+  const Positions& rest() const { return rest_; }
+  /// The middle of the target, which a head pose turns about, (x, z) [m].
+  const Vec2& middle() const { return middle_; }
+  /// The nodes that residuals may depend on, rising.
+  const std::vector<int>& nodes() const { return nodes_; }
+
+ private:
+  Target target_;
+  TongueLine line_;
+  Positions rest_;
+  std::vector<Facet> facets_;  // of the surface
+  std::vector<Vec3> about_;    // where a surface point's distance is taken, from it
+  std::vector<int> nodes_;
+  Vec2 middle_;
+};
+
+/// Covariance of the residuals that a model error of standard deviation `sd` [m] makes.
+Matrix model_error_covariance(const Residuals& residuals, double sd, double length);
+
+/// d residuals / d parameters: rows as in Residuals, `positions` = dx/dp (3 n x count).
+Matrix residual_jacobian(const Residuals& residuals, const Matrix& positions);
+
+}  // namespace genio
