@@ -14,10 +14,9 @@ Model changed_model(const ForwardOptions& o) {
   bool kappa_given = false;
   for (const auto& text : o.effects) {
     const auto [name, value] = parse_assignment("--effect", text);
-    const auto dot = name.find('.');
-    if (dot == std::string::npos)
+    if (name.find('.') == std::string::npos)
       throw InputError(fmt::format("--effect {}: expected NAME.parameter=VALUE", text));
-    const auto effect = name.substr(0, dot);
+    const auto [effect, key] = ParameterName::parse(name);
     if (effect == "muscles")
       throw InputError(fmt::format("--effect {}: give commands by --force", text));
     if (effect == "gravity" && !description.effects.contains(effect))
@@ -28,7 +27,7 @@ Model changed_model(const ForwardOptions& o) {
     if (name == "elasticity.a10" && !kappa_given && table.contains("kappa") &&
         table.contains("a10"))
       table["kappa"] *= value / table["a10"];
-    table[name.substr(dot + 1)] = value;
+    table[key] = value;
   }
   return build_model(description, o.model);
 }

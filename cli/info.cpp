@@ -29,11 +29,10 @@ Runner add_info(CLI::App& app) {
     for (const auto& muscle : m.muscles)
       j["muscles"][muscle.name]["max_force_N"] = muscle.max_force;
     for (const auto& p : m.parameters)
-      j["effects"][std::string(m.effects[p.effect]->name())][p.info.name] = {
-          {"value", p.info.value},
-          {"unit", p.info.unit},
-          {"lower", p.info.lower},
-          {"upper", p.info.upper}};
+      j["effects"][p.name.effect][p.name.key] = {{"value", p.info.value},
+                                                 {"unit", p.info.unit},
+                                                 {"lower", p.info.lower},
+                                                 {"upper", p.info.upper}};
     if (*json) {
       fmt::print("{}\n", j.dump());
       return done;
@@ -45,8 +44,7 @@ Runner add_info(CLI::App& app) {
       fmt::print("  {:<8} {:6.2f} N, {} fibres\n", muscle.name, muscle.max_force,
                  muscle.fibres.size());
     for (const auto& p : m.parameters)
-      if (m.effects[p.effect]->name() != "muscles")
-        fmt::print("  {} = {} {}\n", p.name, p.info.value, p.info.unit);
+      if (!p.is_command) fmt::print("  {} = {} {}\n", p.name.text(), p.info.value, p.info.unit);
     return done;
   };
 }

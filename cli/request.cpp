@@ -75,7 +75,7 @@ int run_request(const RequestOptions& o) {
   // The server computes; the model is read here only to register contours or to draw.
   std::optional<Model> read;
   const auto model = [&]() -> const Model& {
-    if (!read) read = read_model(o.model);
+    if (!read) read.emplace(read_model(o.model));
     return *read;
   };
   const Measured measured = read_measured(o.measured, model);

@@ -182,10 +182,11 @@ HiddenChange tether(const ModelDescription& d, std::mt19937& random) {
   c.effect = "tether", c.in_library = false, c.symmetric = false, c.drawn = true, c.first = 30,
   c.most = 3000;
   c.truth = c.shipped = [](ModelDescription t, double) { return t; };
-  c.by_hand = [=](Model& m, double s) {
-    m.effects.push_back(
+  c.by_hand = [=](const Model& m, double s) {
+    ModelParts parts = m.parts();
+    parts.effects.push_back(
         std::make_shared<Tether>(m.mesh, at, 0.009, anchor, 0.8 * (anchor - at).norm(), s));
-    m.finish();
+    return Model(std::move(parts));
   };
   c.parameters = [](double) { return Table{}; };
   return c;

@@ -21,7 +21,7 @@ struct HiddenChange {
   /// The tongue as it is, and as the model file has it.
   std::function<ModelDescription(ModelDescription, double)> truth, shipped;
   /// What is added to the model of the truth by hand; may be empty.
-  std::function<void(Model&, double)> by_hand;
+  std::function<Model(const Model&, double)> by_hand;
   /// How the data are laid wrongly.
   std::function<HeadPose(double)> pose;
   /// The effect's parameters, as an answer should have them.

@@ -157,8 +157,8 @@ Json make_hidden_data(const ModelDescription& tongue, const HiddenCase& what,
   ModelDescription coarse = changes.truth(turned(tongue, seed));
   const bool half = changes.symmetric();
   if (half) coarse = half_of(coarse, "truth");
-  Model rough = build_model(coarse, "truth"), fine = build_model(refined(coarse), "fine truth");
-  changes.by_hand(rough), changes.by_hand(fine);
+  const Model rough = changes.by_hand(build_model(coarse, "truth"));
+  const Model fine = changes.by_hand(build_model(refined(coarse), "fine truth"));
   fs::create_directories(folder);
   std::mt19937 noise(what.noise_seed * 7919 + seed);
   std::normal_distribution<double> normal;

@@ -93,8 +93,7 @@ Vector after_refit(const Model& m, Equilibrium e, const Target& target, bool kno
 double excess(const ModelDescription& tongue, const Changes& changes,
               const std::vector<Forces_N>& all, const HiddenCase& what) {
   const Model without = build_model(changes.shipped(tongue), "shipped");
-  Model with = build_model(changes.truth(tongue), "truth");
-  changes.by_hand(with);
+  const Model with = changes.by_hand(build_model(changes.truth(tongue), "truth"));
   Workspace ws(without), ws_with(with);
   double sum = 0, count = 0;
   std::mt19937 random(1);

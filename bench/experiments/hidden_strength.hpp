@@ -28,9 +28,11 @@ struct Changes {
     for (size_t i = 0; i < all.size(); ++i) d = all[i].shipped(std::move(d), s[i]);
     return d;
   }
-  void by_hand(Model& m) const {
+  Model by_hand(const Model& model) const {
+    std::optional<Model> changed(model);
     for (size_t i = 0; i < all.size(); ++i)
-      if (all[i].by_hand) all[i].by_hand(m, s[i]);
+      if (all[i].by_hand) changed.emplace(all[i].by_hand(*changed, s[i]));
+    return *changed;
   }
   HeadPose pose() const {
     HeadPose p;

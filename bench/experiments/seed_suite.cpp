@@ -147,13 +147,13 @@ Json sharpness(const Model& m, const Positions& x) {
 Json styloglossus(const ModelDescription& tongue, const std::string& source,
                   const std::string& folder) {
   const Model ours = variant(tongue, source, true, true, true);
-  Model seed = ours;
-  for (Muscle& muscle : seed.muscles)
+  ModelParts parts = ours.parts();
+  for (Muscle& muscle : parts.muscles)
     if (bilateral_name(muscle.name) == "STY")
       for (auto& s : muscle.segments) s.share = 1.0 / double(muscle.fibres.size());
-  for (auto& effect : seed.effects)
-    if (effect->name() == "muscles") effect = std::make_shared<Muscles>(seed.muscles);
-  seed.finish();
+  for (auto& effect : parts.effects)
+    if (effect->name() == "muscles") effect = std::make_shared<Muscles>(parts.muscles);
+  const Model seed(std::move(parts));
   Json j;
   for (const auto& [name, model] :
        {std::pair<const char*, const Model*>{"concentrated", &seed}, {"distributed", &ours}}) {

@@ -20,7 +20,7 @@ Json found_json(const Discovery& d) {
   for (const NamedEffect& e : d.effects) {
     Json p = Json::object();
     for (const SharedEstimate& s : e.parameters)
-      p[s.name.substr(s.name.find('.') + 1)] = {s.value, s.low, s.high};
+      p[ParameterName::parse(s.name).key] = {s.value, s.low, s.high};
     effects.push_back({{"effect", e.effect},
                        {"where", e.where},
                        {"confidence", e.confidence},

@@ -17,7 +17,7 @@ constexpr double same = 1e-6;       // [m]
 Parameters random_forces(const Model& m, std::mt19937& bits) {
   Parameters p = default_parameters(m);
   for (size_t k = 0; k < m.parameters.size(); ++k)
-    if (m.effects[size_t(m.parameters[k].effect)]->name() == "muscles")
+    if (m.parameters[k].is_command)
       p[Eigen::Index(k)] = 0.5 * m.parameters[k].info.upper * (double(bits()) / 4294967296.0);
   return p;
 }

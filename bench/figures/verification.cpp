@@ -139,9 +139,10 @@ Json tongue_table(const std::string& folder, const Progress& progress) {
   HexMesh mesh = d.mesh;
   std::vector<Support> supports = d.supports;
   for (int level = 0; level < 2; ++level) {
-    Model m = tissue_problem(mesh, supports, c);
-    m.effects.push_back(std::make_shared<Gravity>(tissue_mass(mesh, d.density), Vec3(0, 0, -9.81)));
-    m.finish();
+    ModelParts parts = tissue_problem(mesh, supports, c).parts();
+    parts.effects.push_back(
+        std::make_shared<Gravity>(tissue_mass(mesh, d.density), Vec3(0, 0, -9.81)));
+    const Model m(std::move(parts));
     const auto moved = [&](const Positions& x) {
       return Vec3(node_position(x, d.landmarks.tip) - node_position(m.rest, d.landmarks.tip));
     };

@@ -22,7 +22,7 @@ std::vector<int> loaded_elements(const HexMesh& mesh) {
 }  // namespace
 
 Model block(const std::array<int, 3>& cells) {
-  Model m;
+  ModelParts m;
   m.name = "block";
   m.mesh = box_mesh(Vec3(0.06, 0.04, 0.05), cells);
   for (const Vec3& x : m.mesh.nodes)
@@ -35,8 +35,7 @@ Model block(const std::array<int, 3>& cells) {
   m.effects = {std::make_shared<Elasticity>(m.mesh, constants, true),
                std::make_shared<DeadLoad>("load", weights, 1.0),
                std::make_shared<Viscosity>(m.tissue_mass, 40, 0.03)};
-  m.finish();
-  return m;
+  return Model(std::move(m));
 }
 
 Model block(int split) { return block({12 * split, 8 * split, 10 * split}); }

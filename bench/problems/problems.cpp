@@ -78,7 +78,7 @@ Vec3 manufactured_load(const Vec3& x, const TissueConstants& c) {
 
 Model tissue_problem(HexMesh mesh, std::vector<Support> supports, const TissueConstants& constants,
                      Forces weights, double force) {
-  Model m;
+  ModelParts m;
   m.name = "verification";
   m.mesh = std::move(mesh);
   m.supports = std::move(supports);
@@ -86,16 +86,16 @@ Model tissue_problem(HexMesh mesh, std::vector<Support> supports, const TissueCo
   m.effects.push_back(std::make_shared<Elasticity>(m.mesh, constants));
   if (weights.size() > 0)
     m.effects.push_back(std::make_shared<DeadLoad>("load", std::move(weights), force));
-  m.finish();
-  return m;
+  return Model(std::move(m));
 }
 
-void damp(Model& m, double alpha, double beta) {
-  const auto constants = effect_parameters(m, default_parameters(m), 0);
+Model damped(const Model& undamped, double alpha, double beta) {
+  const auto constants = effect_parameters(undamped, default_parameters(undamped), 0);
+  ModelParts m = undamped.parts();
   m.effects[0] = std::make_shared<Elasticity>(
       m.mesh, TissueConstants{constants[0], constants[1], constants[2]}, true);
   m.effects.push_back(std::make_shared<Viscosity>(m.tissue_mass, alpha, beta));
-  m.finish();
+  return Model(std::move(m));
 }
 
 Mat3 first_piola(const Mat3& f, const TissueConstants& c) {

@@ -10,8 +10,8 @@ namespace genio::bench {
 Model tissue_problem(HexMesh mesh, std::vector<Support> supports, const TissueConstants& constants,
                      Forces weights = {}, double force = 1);
 
-/// Adds Rayleigh damping to such a model.
-void damp(Model& model, double alpha, double beta);
+/// Such a model with Rayleigh damping.
+Model damped(const Model& undamped, double alpha, double beta);
 
 /// First Piola stress of Elasticity's law in a homogeneous deformation [Pa].
 Mat3 first_piola(const Mat3& f, const TissueConstants& constants);

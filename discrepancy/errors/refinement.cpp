@@ -12,7 +12,6 @@ namespace {
 
 // Of 1e-2, corrections differ from those of 1e-4 by less than 0.03 of the noise.
 constexpr double tolerance = 5e-3;
-constexpr const char* of_muscles = "muscles.";
 constexpr double nearby = 1e-3;  // of any node, between shapes of one correction [m]
 
 /// Muscle forces of the condition by name, those of left and right evened out where `even`. All
@@ -20,13 +19,13 @@ constexpr double nearby = 1e-3;  // of any node, between shapes of one correctio
 Parameters evened(const Model& to, const Model& from, const Parameters& p, bool even) {
   Parameters q = default_parameters(to);
   for (Eigen::Index k = 0; k < q.size(); ++k) {
-    const std::string& name = to.parameters[size_t(k)].name;
-    if (!name.starts_with(of_muscles)) continue;
-    const std::string both = bilateral_name(name);
+    if (!to.parameters[size_t(k)].is_command) continue;
+    const std::string name = to.parameters[size_t(k)].name.key, both = bilateral_name(name);
     double sum = 0;
     int count = 0;
     for (size_t i = 0; i < from.parameters.size(); ++i) {
-      const std::string& other = from.parameters[i].name;
+      if (!from.parameters[i].is_command) continue;
+      const std::string& other = from.parameters[i].name.key;
       if (other == name || (even && bilateral_name(other) == both))
         sum += p[Eigen::Index(i)], ++count;
     }
@@ -39,9 +38,9 @@ Parameters evened(const Model& to, const Model& from, const Parameters& p, bool 
 Parameters halved(const Model& half, const Model& whole, const Parameters& p) {
   Parameters q = default_parameters(half);
   for (Eigen::Index k = 0; k < q.size(); ++k) {
-    const std::string& name = half.parameters[size_t(k)].name;
-    const bool unpaired = name.starts_with(of_muscles) && bilateral_name(name) == name;
-    q[k] = (unpaired ? 0.5 : 1.0) * p[parameter_index(whole, name)];
+    const ParameterSlot& slot = half.parameters[size_t(k)];
+    const bool unpaired = slot.is_command && bilateral_name(slot.name.key) == slot.name.key;
+    q[k] = (unpaired ? 0.5 : 1.0) * p[parameter_index(whole, slot.name.text())];
   }
   return q;
 }

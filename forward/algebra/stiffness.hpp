@@ -2,6 +2,7 @@
 // Symmetric stiffness as 3x3 node blocks on a fixed pattern, and its reduction to free unknowns.
 
 #include <array>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -37,11 +38,15 @@ class BlockPattern {
 /// Values on a BlockPattern [N/m]. Blocks are row-major.
 class Stiffness {
  public:
-  explicit Stiffness(const BlockPattern& pattern)
-      : pattern_(&pattern), values_(size_t(9) * pattern.blocks(), 0.0) {}
+  explicit Stiffness(std::shared_ptr<const BlockPattern> pattern)
+      : pattern_(std::move(pattern)), values_(size_t(9) * pattern_->blocks(), 0.0) {}
 
   void set_zero() { std::fill(values_.begin(), values_.end(), 0.0); }
   const BlockPattern& pattern() const { return *pattern_; }
+  /// True where it was made on this very pattern.
+  bool is_on(const std::shared_ptr<const BlockPattern>& pattern) const {
+    return pattern_ == pattern;
+  }
   double* block(int slot) { return &values_[size_t(9) * slot]; }
   const double* block(int slot) const { return &values_[size_t(9) * slot]; }
   /// Adds d2E/dx_a dx_b; call it once for each unordered pair, and once for a == b.
@@ -56,7 +61,7 @@ class Stiffness {
   Matrix multiply_columns(const Matrix& x) const;
 
  private:
-  const BlockPattern* pattern_;
+  std::shared_ptr<const BlockPattern> pattern_;
   std::vector<double> values_;
 };
 

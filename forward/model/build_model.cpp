@@ -8,7 +8,7 @@ namespace genio {
 
 Model build_model(const ModelDescription& d, const std::string& source) {
   check_mesh(d.mesh, source);
-  Model model;
+  ModelParts model;
   model.name = d.name;
   model.description = std::make_shared<const ModelDescription>(d);
   model.mesh = d.mesh;
@@ -26,11 +26,10 @@ Model build_model(const ModelDescription& d, const std::string& source) {
   for (const auto& [name, table] : d.effects)
     if (name != "muscles") model.effects.push_back(make_effect(name, table, anatomy));
   model.effects.push_back(make_effect("muscles", {}, anatomy));
-  model.finish();
   if (std::none_of(d.supports.begin(), d.supports.end(),
                    [](Support s) { return s == Support::fixed; }))
     throw InputError(source + ": no node is fixed to the jaw; the tongue would float away");
-  return model;
+  return Model(std::move(model));
 }
 
 Model read_model(const std::string& path) { return build_model(read_description(path), path); }

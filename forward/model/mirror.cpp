@@ -106,6 +106,14 @@ bool same_forces(const Model& half, const Mirror& mirror, const Positions& x, co
   return true;
 }
 
+std::optional<Model> right_half_of(const Model& m) {
+  try {
+    return build_model(half_of(*m.description, m.name), m.name + ", right half");
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 Matrix Mirror::whole(const Matrix& of_half) const {
@@ -139,12 +147,9 @@ std::unique_ptr<const Mirror> mirror_of(const Model& m, const std::vector<std::s
     if (!symmetric(d, partner, same_force * d.cwiseAbs().maxCoeff())) return nullptr;
   }
   if (!symmetric_surfaces(m)) return nullptr;
-  auto result = std::make_unique<Mirror>();
-  try {
-    result->half = build_model(half_of(*m.description, m.name), m.name + ", right half");
-  } catch (const InputError&) {
-    return nullptr;
-  }
+  auto half = right_half_of(m);
+  if (!half) return nullptr;
+  auto result = std::make_unique<Mirror>(Mirror{std::move(*half), {}, {}, {}});
   std::vector<int> number(m.mesh.nodes.size(), -1);
   for (size_t a = 0; a < number.size(); ++a)
     if (m.mesh.nodes[a][1] > -on_plane) {

@@ -10,28 +10,80 @@
 
 namespace genio {
 
-void Model::finish() {
-  rest = rest_positions(mesh);
-  surface = boundary_quads(mesh);
-  batches = element_batches(mesh);
-  dofs = DofMap(supports);
-  std::vector<std::pair<int, int>> extra;
-  parameters.clear();
-  inputs.assign(effects.size(), {});
-  for (size_t e = 0; e < effects.size(); ++e) {
-    const auto pairs = effects[e]->couplings();
-    extra.insert(extra.end(), pairs.begin(), pairs.end());
-    const auto infos = effects[e]->parameters();
-    for (size_t k = 0; k < infos.size(); ++k) {
-      inputs[e].push_back(int(parameters.size()));
-      parameters.push_back(
-          {int(e), int(k), fmt::format("{}.{}", effects[e]->name(), infos[k].name), infos[k]});
-    }
+namespace {
+
+using Effects = std::vector<std::shared_ptr<const Effect>>;
+
+int index_of(const std::vector<ParameterSlot>& slots, const std::string& name) {
+  std::vector<std::string> known;
+  for (size_t k = 0; k < slots.size(); ++k) {
+    known.push_back(slots[k].name.text());
+    if (known.back() == name) return int(k);
   }
+  throw InputError(fmt::format("{}: the model has no such parameter; did you mean {}?", name,
+                               nearest_name(name, known)));
+}
+
+std::vector<ParameterSlot> parameter_slots(const Effects& effects) {
+  std::vector<ParameterSlot> slots;
+  for (size_t e = 0; e < effects.size(); ++e) {
+    const std::string effect(effects[e]->name());
+    const auto infos = effects[e]->parameters();
+    for (size_t k = 0; k < infos.size(); ++k)
+      slots.push_back({.effect = int(e),
+                       .index = int(k),
+                       .name = {effect, infos[k].name},
+                       .info = infos[k],
+                       .is_command = effect == "muscles"});
+  }
+  return slots;
+}
+
+std::vector<std::vector<int>> inputs_of(const Effects& effects,
+                                        const std::vector<ParameterSlot>& slots) {
+  std::vector<std::vector<int>> inputs(effects.size());
+  for (size_t k = 0; k < slots.size(); ++k) inputs[size_t(slots[k].effect)].push_back(int(k));
   for (size_t e = 0; e < effects.size(); ++e)
     for (const auto& borrowed : effects[e]->borrows())
-      inputs[e].push_back(parameter_index(*this, borrowed));
-  pattern = BlockPattern(mesh, extra);
+      inputs[e].push_back(index_of(slots, borrowed));
+  return inputs;
+}
+
+std::shared_ptr<const BlockPattern> pattern_of(const HexMesh& mesh, const Effects& effects) {
+  std::vector<std::pair<int, int>> extra;
+  for (const auto& effect : effects) {
+    const auto pairs = effect->couplings();
+    extra.insert(extra.end(), pairs.begin(), pairs.end());
+  }
+  return std::make_shared<const BlockPattern>(mesh, extra);
+}
+
+}  // namespace
+
+Model::Model(ModelParts from)
+    : name(std::move(from.name)),
+      description(std::move(from.description)),
+      mesh(std::move(from.mesh)),
+      supports(std::move(from.supports)),
+      muscles(std::move(from.muscles)),
+      landmarks(from.landmarks),
+      midsagittal(std::move(from.midsagittal)),
+      palate(std::move(from.palate)),
+      jaw(std::move(from.jaw)),
+      hyoid(std::move(from.hyoid)),
+      effects(std::move(from.effects)),
+      tissue_mass(std::move(from.tissue_mass)),
+      rest(rest_positions(mesh)),
+      surface(boundary_quads(mesh)),
+      batches(element_batches(mesh)),
+      dofs(supports),
+      parameters(parameter_slots(effects)),
+      inputs(inputs_of(effects, parameters)),
+      pattern(pattern_of(mesh, effects)) {}
+
+ModelParts Model::parts() const {
+  return {name,        description, mesh, supports, muscles, landmarks,
+          midsagittal, palate,      jaw,  hyoid,    effects, tissue_mass};
 }
 
 Parameters default_parameters(const Model& model) {
@@ -41,13 +93,7 @@ Parameters default_parameters(const Model& model) {
 }
 
 int parameter_index(const Model& model, const std::string& name) {
-  std::vector<std::string> known;
-  for (size_t k = 0; k < model.parameters.size(); ++k) {
-    if (model.parameters[k].name == name) return int(k);
-    known.push_back(model.parameters[k].name);
-  }
-  throw InputError(fmt::format("{}: the model has no such parameter; did you mean {}?", name,
-                               nearest_name(name, known)));
+  return index_of(model.parameters, name);
 }
 
 std::vector<int> command_parameters(const Model& model, const std::string& name) {
@@ -55,7 +101,7 @@ std::vector<int> command_parameters(const Model& model, const std::string& name)
   std::vector<std::string> known;
   for (size_t k = 0; k < model.parameters.size(); ++k) {
     const auto& slot = model.parameters[k];
-    if (model.effects[slot.effect]->name() != "muscles") continue;
+    if (!slot.is_command) continue;
     const std::string both = bilateral_name(slot.info.name);
     if (slot.info.name == name || both == name) result.push_back(int(k));
     if (both != slot.info.name) known.push_back(both);

@@ -1,5 +1,5 @@
 #pragma once
-// A tongue: mesh, supports, surfaces and the effects whose energies add up. Immutable once built.
+// A tongue: mesh, supports, surfaces and the effects whose energies add up.
 
 #include <array>
 #include <functional>
@@ -10,6 +10,7 @@
 
 #include "forward/algebra/stiffness.hpp"
 #include "forward/algebra/supports.hpp"
+#include "forward/base/parameter_name.hpp"
 #include "forward/effects/description.hpp"
 #include "forward/effects/effect.hpp"
 #include "forward/geometry/element_batches.hpp"
@@ -25,15 +26,17 @@ using Parameters = Eigen::VectorXd;
 
 /// A parameter and where it lives.
 struct ParameterSlot {
-  int effect;        ///< index into Model::effects
-  int index;         ///< index into that effect's parameters
-  std::string name;  ///< "muscles.GGP_L", "gravity.z"
+  int effect;  ///< index into Model::effects
+  int index;   ///< index into that effect's parameters
+  ParameterName name;
   ParameterInfo info;
+  bool is_command = false;  ///< the tension of a muscle of the model [N]
 };
 
-struct Model {
+/// What a model is assembled from. Anybody may put one together and change it.
+struct ModelParts {
   std::string name;
-  /// What it was built from; null where it was put together by hand.
+  /// What a file says of it; null where it was put together by hand.
   std::shared_ptr<const ModelDescription> description;
   HexMesh mesh;
   std::vector<Support> supports;  ///< one a node
@@ -45,19 +48,38 @@ struct Model {
   std::optional<TriangleSurface> palate, jaw, hyoid;
   std::vector<std::shared_ptr<const Effect>> effects;
   NodeMatrix tissue_mass;  ///< [kg]; empty where there are no dynamics
+};
 
-  // Derived by finish():
-  Positions rest;             ///< [m]
-  std::vector<Quad> surface;  ///< boundary faces
-  std::vector<ElementBatch> batches;
-  DofMap dofs;
-  BlockPattern pattern;
-  std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another
+/// A tongue, assembled once and then constant: a changed model is a new one, made from changed
+/// parts(). What solvers need of the parts is derived when it is made. Copies may share workspaces.
+struct Model {
+  /// Throws InputError where an effect borrows a parameter that no effect has.
+  explicit Model(ModelParts parts);
+
+  const std::string name;
+  const std::shared_ptr<const ModelDescription> description;
+  const HexMesh mesh;
+  const std::vector<Support> supports;
+  const std::vector<Muscle> muscles;
+  const Landmarks landmarks;
+  const std::vector<int> midsagittal;
+  const std::optional<TriangleSurface> palate, jaw, hyoid;
+  const std::vector<std::shared_ptr<const Effect>> effects;
+  const NodeMatrix tissue_mass;
+
+  // Derived:
+  const Positions rest;             ///< [m]
+  const std::vector<Quad> surface;  ///< boundary faces
+  const std::vector<ElementBatch> batches;
+  const DofMap dofs;
+  const std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another
   /// Of each effect: where its parameters, then those it borrows, stand in Parameters.
-  std::vector<std::vector<int>> inputs;
+  const std::vector<std::vector<int>> inputs;
+  /// Which node pairs couple. Workspaces share it, so that they cannot outlive it.
+  const std::shared_ptr<const BlockPattern> pattern;
 
-  /// Fills the derived members; call once after the others are set.
-  void finish();
+  /// What it was assembled from, to make a changed model of.
+  ModelParts parts() const;
 };
 
 /// Parameter values as the model file states them; muscle commands 0.

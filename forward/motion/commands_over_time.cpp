@@ -96,15 +96,15 @@ CommandsOverTime read_commands(const Model& model, const std::string& path,
 
 CommandsOverTime activated(const Model& model, const CommandsOverTime& commands) {
   const auto dynamics =
-      std::find_if(model.parameters.begin(), model.parameters.end(),
-                   [](const ParameterSlot& s) { return s.name == "activation_dynamics.rise"; });
+      std::find_if(model.parameters.begin(), model.parameters.end(), [](const ParameterSlot& s) {
+        return s.name == ParameterName{"activation_dynamics", "rise"};
+      });
   if (dynamics == model.parameters.end()) return commands;
   const auto rise = dynamics - model.parameters.begin(), fall = rise + 1;
   CommandsOverTime out{{commands.times.front()}, {commands.values.front()}};
   // At rest before; then followed long enough for the last jump to be over.
   for (size_t k = 0; k < model.parameters.size(); ++k)
-    if (model.effects[size_t(model.parameters[k].effect)]->name() == "muscles")
-      out.values[0][Eigen::Index(k)] = 0;
+    if (model.parameters[k].is_command) out.values[0][Eigen::Index(k)] = 0;
   const Parameters& first = commands.values.front();
   const double end = commands.times.back() + 10 * std::max(first[rise], first[fall]);
   while (out.times.back() < end) {
@@ -112,7 +112,7 @@ CommandsOverTime activated(const Model& model, const CommandsOverTime& commands)
     const Parameters told = commands.at(t - 0.5 * activation_step);
     Parameters next = commands.at(t);
     for (size_t i = 0; i < model.parameters.size(); ++i) {
-      if (model.effects[size_t(model.parameters[i].effect)]->name() != "muscles") continue;
+      if (!model.parameters[i].is_command) continue;
       const auto k = Eigen::Index(i);
       const double a = out.values.back()[k], tau = told[told[k] > a ? rise : fall];
       next[k] = tau > 0 ? told[k] + (a - told[k]) * std::exp(-activation_step / tau) : told[k];

@@ -159,7 +159,7 @@ void Simulation::record(const MotionState& before, const MotionState& after, Ins
 Vector Simulation::first_acceleration(const Positions& start) {
   scratch_.set_zero();
   scratch_.add(mass_, 1);
-  ReducedStiffness m(model_.pattern, model_.dofs);
+  ReducedStiffness m(*model_.pattern, model_.dofs);
   m.assign(scratch_);
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>> solver(m.lower());
   solver.setTolerance(1e-12);
@@ -222,6 +222,7 @@ Trajectory simulate(const Model& model, const CommandsOverTime& commands, const 
                     Workspace& ws, const TimeOptions& options) {
   if (!(options.duration > 0) || !(options.step > 0))
     throw InputError("dynamics: duration and step must be above 0 s");
+  ws.check(model);
   Trajectory result;
   const int before = ws.cholesky.factorizations();
   const CommandsOverTime pulls = activated(model, commands);

@@ -168,6 +168,7 @@ std::vector<Matrix> motion_sensitivity(const Model& model, const Controls& contr
     throw InputError(model.name +
                      ": activation_dynamics lets forces lag behind commands; dynamic "
                      "inversion finds the forces themselves, so leave it out");
+  ws.check(model);
   const Eigen::Index n = model.rest.size(), count = controls.unknowns();
   State state{Matrix::Zero(n, count), Matrix::Zero(n, count), Matrix::Zero(n, count)};
   if (start.cols() > 0) state.u = start;

@@ -150,9 +150,14 @@ void continuation(const Model& model, const Parameters& p, Workspace& ws,
 
 Workspace::Workspace(const Model& model)
     : stiffness(model.pattern),
-      reduced(model.pattern, model.dofs),
+      reduced(*model.pattern, model.dofs),
       cholesky(reduced),
       curved(model.mesh, model.supports) {}
+
+void Workspace::check(const Model& model) const {
+  if (!stiffness.is_on(model.pattern))
+    throw std::invalid_argument(model.name + ": the workspace was made for another model");
+}
 
 bool Workspace::factorize(const Model& model, const Positions& x, const Parameters& p,
                           double shift) {
@@ -164,6 +169,7 @@ bool Workspace::factorize(const Model& model, const Positions& x, const Paramete
 
 Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Positions& start,
                               Workspace& ws, const SolveOptions& options) {
+  ws.check(model);
   Equilibrium result;
   const int before = ws.cholesky.factorizations();
   result.parameters = p;
@@ -179,6 +185,7 @@ Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Pos
 }
 
 Equilibrium solve_small_deformation(const Model& model, const Parameters& p, Workspace& ws) {
+  ws.check(model);
   Equilibrium result;
   result.parameters = p;
   const int before = ws.cholesky.factorizations();

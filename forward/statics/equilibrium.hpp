@@ -11,9 +11,11 @@
 namespace genio {
 
 /// Scratch and factor of one solver: one a thread, reused from call to call. A factor left by an
-/// earlier call serves as preconditioner of the next.
+/// earlier call serves as preconditioner of the next. It keeps what it needs of its model alive.
 struct Workspace {
   explicit Workspace(const Model& model);
+  /// Throws std::invalid_argument when it was made for another model.
+  void check(const Model& model) const;
 
   Stiffness stiffness;
   ReducedStiffness reduced;

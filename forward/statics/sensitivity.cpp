@@ -11,6 +11,7 @@ Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
 
 Matrix sensitivity_to_forces(const Model& model, const Equilibrium& equilibrium, const Matrix& df,
                              Workspace& ws) {
+  ws.check(model);
   stiffness(model, equilibrium.x, equilibrium.parameters, ws.stiffness);
   if (!ws.factorize(model, equilibrium.x, equilibrium.parameters)) return {};
   return expand_columns(model.dofs, ws.cholesky.solve(reduce_columns(model.dofs, df)));

@@ -22,7 +22,7 @@ std::vector<Unknown> muscle_unknowns(const Model& model, bool bilateral) {
 std::vector<int> parameters_named(const Model& model, const std::string& name) {
   std::vector<int> result;
   for (size_t k = 0; k < model.parameters.size(); ++k)
-    if (const auto& known = model.parameters[k].name;
+    if (const std::string known = model.parameters[k].name.text();
         known == name || (known != bilateral_name(known) && bilateral_name(known) == name))
       result.push_back(int(k));
   return result.empty() ? std::vector{parameter_index(model, name)} : result;

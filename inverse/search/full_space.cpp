@@ -36,7 +36,7 @@ class FullSpace final : public NonlinearProgram {
         count_(Eigen::Index(unknowns_.size())),
         k_(model.pattern),
         other_(model.pattern),
-        reduced_(model.pattern, model.dofs),
+        reduced_(*model.pattern, model.dofs),
         clock_(options) {
     lower_ = Vector::Constant(free_ + count_, -1e3), upper_ = -lower_;
     lower_.tail(count_) = prior_.lower, upper_.tail(count_) = prior_.upper;
@@ -185,7 +185,8 @@ void FullSpace::make_pattern() {
 
 void FullSpace::add_nodal(int i, int j, double value) {
   const int nodal = int(x_.size());
-  const int a = i < nodal ? model_.dofs.unknown(i) : -1, b = j < nodal ? model_.dofs.unknown(j) : -1;
+  const int a = i < nodal ? model_.dofs.unknown(i) : -1,
+            b = j < nodal ? model_.dofs.unknown(j) : -1;
   if (i < nodal && j < nodal) {
     if (a >= 0 && b >= 0) add(a, b, length * length * value);
   } else if (i >= nodal && j >= nodal) {

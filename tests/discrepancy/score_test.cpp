@@ -46,7 +46,7 @@ TEST_F(Scores, SignatureIsTheDerivativeOfTheResiduals) {
     Parameters p = default_parameters(m);
     const FittedCondition& fitted = f.conditions[0];
     for (size_t k = 0; k < study->model(0).parameters.size(); ++k) {
-      const std::string& key = study->model(0).parameters[k].name;
+      const std::string key = study->model(0).parameters[k].name.text();
       if (!key.starts_with(c->effect))
         p[parameter_index(m, key)] = fitted.parameters[Eigen::Index(k)];
     }

@@ -93,10 +93,9 @@ TEST(Dynamics, WorkBecomesEnergyAndHeat) {
 /// A slender bar, drawn out and let go: its end over time [m].
 struct Bar {
   static constexpr double length = 0.09, width = 0.003;
-  Model m;
   std::vector<double> time, end;
 
-  Bar(double alpha, double beta, double duration) {
+  static Model model(double alpha, double beta) {
     HexMesh mesh = box_mesh(Vec3(length, width, width), {30, 1, 1});
     std::vector<Support> supports;
     for (const Vec3& x : mesh.nodes)  // clamped where it may still thin: a bar without ends
@@ -106,8 +105,13 @@ struct Bar {
     pull(0, 0) = 1;
     bench::add_traction(
         mesh, pull, [](const Vec3& x) { return x[0] > length - 1e-9; }, load);
-    m = bench::tissue_problem(mesh, supports, {1037, 486, 1037e3}, load, 10);  // 0.16 %
-    bench::damp(m, alpha, beta);
+    // 0.16 %
+    return bench::damped(bench::tissue_problem(mesh, supports, {1037, 486, 1037e3}, load, 10),
+                         alpha, beta);
+  }
+
+  Bar(double alpha, double beta, double duration) {
+    const Model m = model(alpha, beta);
     Workspace ws(m);
     Parameters p = default_parameters(m);
     const auto drawn = solve_equilibrium(m, p, m.rest, ws);

@@ -110,7 +110,7 @@ TEST(Sensitivity, IsTheDerivativeOfTheEquilibrium) {
                minus = solve_equilibrium(m, down, e.x, ws, tight);
     const Vector quotient = (plus.x - minus.x) / (2 * h);
     EXPECT_LE((quotient - s.col(k)).norm(), 2e-4 * std::max(s.col(k).norm(), 1e-12))
-        << m.parameters[k].name;
+        << m.parameters[k].name.text();
   }
 }
 

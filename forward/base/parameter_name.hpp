@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+
+namespace genio {
+
+/// A parameter of an effect: "gravity.z" is key "z" of effect "gravity".
+struct ParameterName {
+  std::string effect, key;
+
+  std::string text() const { return effect + "." + key; }
+  auto operator<=>(const ParameterName&) const = default;
+
+  /// From "effect.key". Throws InputError when either part is missing.
+  static ParameterName parse(const std::string& text);
+};
+
+}  // namespace genio
