@@ -1,16 +1,10 @@
-#include "cli/progress_line.hpp"
+#include "runs/progress_line.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
-
-namespace genio::cli {
+namespace genio {
 namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::string duration(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);
@@ -25,8 +19,7 @@ ProgressLine::ProgressLine(int done, int total, std::string items)
       first_(done),
       done_(done),
       total_(total),
-      terminal_(isatty(STDERR_FILENO)),
-      started_(now()) {}
+      terminal_(isatty(STDERR_FILENO)) {}
 
 void ProgressLine::step() {
   ++done_;
@@ -34,11 +27,18 @@ void ProgressLine::step() {
   if (total_ < 2 || (!terminal_ && !tenth)) return;
   constexpr int width = 24;
   const int full = width * done_ / total_;
-  const double each = (now() - started_) / (done_ - first_);
+  const double each = watch_.seconds() / (done_ - first_);
   fmt::print(stderr, "{}[{:#<{}}{:.<{}}] {} of {} {}, {:.2f} s each, {} left{}",
              terminal_ ? "\r" : "", "", full, "", width - full, done_, total_, items_, each,
              duration(each * (total_ - done_)), terminal_ && done_ < total_ ? "  " : "\n");
   std::fflush(stderr);
 }
 
-}  // namespace genio::cli
+void print_progress(double part, const std::string& what) {
+  const bool terminal = isatty(STDERR_FILENO);
+  fmt::print(stderr, "{}{:3.0f} % {}{}", terminal ? "\r" : "", 100 * part, what,
+             terminal && part < 1 ? "          " : "\n");
+  std::fflush(stderr);
+}
+
+}  // namespace genio

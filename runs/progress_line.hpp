@@ -1,7 +1,9 @@
 #pragma once
 #include <string>
 
-namespace genio::cli {
+#include "forward/base/elapsed.hpp"
+
+namespace genio {
 
 /// A bar with counts and the time that is left, on standard error: in place on a terminal, a line
 /// every tenth part elsewhere. Nothing for a single item.
@@ -14,7 +16,11 @@ class ProgressLine {
   std::string items_;
   int first_, done_, total_;
   bool terminal_;
-  double started_;
+  Stopwatch watch_;
 };
 
-}  // namespace genio::cli
+/// A line that says how far a single piece of work is, `part` 0 to 1, and what it does; on standard
+/// error, in place on a terminal.
+void print_progress(double part, const std::string& what);
+
+}  // namespace genio

@@ -1,12 +1,11 @@
-#include "cli/checkpoint.hpp"
+#include "runs/checkpoint.hpp"
 
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "report/svg.hpp"
+#include "forward/base/text_file.hpp"
 
-namespace genio::cli {
+namespace genio {
 
 Checkpoint::Checkpoint(const std::string& folder, bool resume)
     : path_(folder.empty() ? "" : folder + "/checkpoint.json") {
@@ -30,8 +29,7 @@ void Checkpoint::keep(const std::vector<Vector>& unknowns) const {
   if (path_.empty()) return;
   auto json = nlohmann::json::array();
   for (const Vector& z : unknowns) json.push_back(std::vector<double>(z.begin(), z.end()));
-  write_text(path_ + ".new", nlohmann::json{{"unknowns", json}}.dump() + "\n");
-  std::filesystem::rename(path_ + ".new", path_);
+  replace_text(path_, nlohmann::json{{"unknowns", json}}.dump() + "\n");
 }
 
-}  // namespace genio::cli
+}  // namespace genio

@@ -1,4 +1,4 @@
-#include "cli/measured.hpp"
+#include "runs/measured.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "inverse/recording/frame_target.hpp"
 
-namespace genio::cli {
+namespace genio {
 namespace {
 
 constexpr double poor_fit = 3e-3;   // of the palate [m]
@@ -62,29 +62,8 @@ RegisteredFile registered_by(const Model& model, ContourFile file, const Measure
 
 }  // namespace
 
-void add_measured_options(CLI::App& app, MeasuredOptions& o) {
-  app.add_option("--target", o.target, "Contour file");
-  app.add_option("--format", o.read.format,
-                 "auto, csv, aaa, getcontours, edgetrak, ema or surface");
-  app.add_option("--units", o.read.units, "mm, cm, m, um or px, where the file does not say");
-  app.add_option("--mm-per-px", o.read.mm_per_px, "Size of a pixel")->check(CLI::PositiveNumber);
-  app.add_option("--facing", o.read.facing, "Where the face looks in the file: left or right");
-  app.add_option("--y-grows", o.read.up, "up, or down as in images");
-  app.add_option("--sensors", o.sensors, "EMA: what each is stuck to, 3=dorsum,5=tip")
-      ->delimiter(',');
-  app.add_option("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--palate", o.palate, "Palate trace of the same session");
-  app.add_option("--palate-sensor", o.palate_sensor,
-                 "EMA: the sensor swept along the palate there");
-  app.add_flag("--registered", o.registered, "The file is in the model's frame already");
-  app.add_option("--frames", o.frames, "A-B, counted from 1");
-  app.add_option(
-      "--noise-mm", o.noise_mm,
-      "Measurement noise (default 0.5 for CSV and EMA, 1 for scans, 1.5 for ultrasound)");
-}
-
-Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model) {
+Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model,
+                       const std::function<void(const std::string&)>& remark) {
   if (o.target.empty()) throw InputError("--target: a contour file is needed");
   if (!(o.noise_mm >= 0)) throw InputError("--noise-mm: must be above 0");
   const auto [first, last] = parse_frames(o.frames);
@@ -99,7 +78,7 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   } else if (!file.facing_known) {
     throw InputError(o.target + ": does not say which way the face looks; give --facing");
   }
-  for (const std::string& remark : file.remarks) fmt::print(stderr, "{}: {}\n", o.target, remark);
+  for (const std::string& line : file.remarks) remark(fmt::format("{}: {}", o.target, line));
   m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : default_noise(file.format);
   for (const ContourFrame& frame : file.frames)
     if (frame.number >= first && frame.number <= last)
@@ -109,18 +88,4 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   return m;
 }
 
-void print_answer(const AnswerView& view, int frame, bool json) {
-  if (json) fmt::print("{}\n", to_json(view, frame).dump());
-  else fmt::print("{}\n{}\n", view.title, to_table(view));
-  std::fflush(stdout);
-}
-
-std::string frame_name(const ContourFrame& frame) {
-  return fmt::format("frame{:05d}", frame.number);
-}
-
-std::string frame_title(const ContourFrame& frame) {
-  return fmt::format("frame {}{}{}", frame.number, frame.label.empty() ? "" : ": ", frame.label);
-}
-
-}  // namespace genio::cli
+}  // namespace genio

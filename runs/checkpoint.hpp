@@ -4,7 +4,7 @@
 
 #include "forward/base/types.hpp"
 
-namespace genio::cli {
+namespace genio {
 
 /// DIR/checkpoint.json: where a joint problem stands, the unknowns of each of its frames or knots.
 /// Without a folder nothing is kept.
@@ -21,4 +21,4 @@ class Checkpoint {
   std::vector<Vector> known_;
 };
 
-}  // namespace genio::cli
+}  // namespace genio

@@ -1,4 +1,4 @@
-#include "cli/workers.hpp"
+#include "runs/workers.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -7,17 +7,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
-namespace genio::cli {
+namespace genio {
 namespace {
 
 struct Worker {
   pid_t process;
   int pipe;
-  std::string pending = {};  // of a line
+  std::string pending = {};  // the beginning of a result
 };
+
+/// A result goes through the pipe behind the number of its bytes.
+using Length = uint64_t;
 
 void write_all(int pipe, const std::string& text) {
   for (size_t done = 0; done < text.size();) {
@@ -39,7 +44,11 @@ Worker start(int k, const std::function<void(int, const Send&)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   close(ends[0]);
   try {
-    work(k, [&](const nlohmann::json& result) { write_all(ends[1], result.dump() + "\n"); });
+    work(k, [&](const std::string& result) {
+      const Length length = result.size();
+      write_all(ends[1], std::string(reinterpret_cast<const char*>(&length), sizeof length));
+      write_all(ends[1], result);
+    });
   } catch (const std::exception& e) {
     fmt::print(stderr, "worker {}: {}\n", k + 1, e.what());
     _exit(1);
@@ -48,22 +57,26 @@ Worker start(int k, const std::function<void(int, const Send&)>& work) {
 }
 
 /// False when the worker has ended.
-bool receive(Worker& worker, const std::function<void(const nlohmann::json&)>& collect) {
+bool receive(Worker& worker, const Send& collect) {
   char buffer[65536];
   const ssize_t n = read(worker.pipe, buffer, sizeof buffer);
   if (n <= 0) return false;
-  worker.pending.append(buffer, size_t(n));
+  std::string& pending = worker.pending;
+  pending.append(buffer, size_t(n));
   size_t first = 0;
-  for (size_t end; (end = worker.pending.find('\n', first)) != std::string::npos; first = end + 1)
-    collect(nlohmann::json::parse(worker.pending.substr(first, end - first)));
-  worker.pending.erase(0, first);
+  for (Length length; pending.size() - first >= sizeof length; first += sizeof length + length) {
+    std::memcpy(&length, pending.data() + first, sizeof length);
+    if (pending.size() - first - sizeof length < length) break;
+    collect(pending.substr(first + sizeof length, length));
+  }
+  pending.erase(0, first);
   return true;
 }
 
 }  // namespace
 
 void in_processes(int count, const std::function<void(int, const Send&)>& work,
-                  const std::function<void(const nlohmann::json&)>& collect) {
+                  const Send& collect) {
   if (count <= 1) return work(0, collect);
   std::vector<Worker> workers;
   for (int k = 0; k < count; ++k) workers.push_back(start(k, work));
@@ -84,4 +97,4 @@ void in_processes(int count, const std::function<void(int, const Send&)>& work,
   if (died) throw std::runtime_error("a worker process ended early; --resume takes up the rest");
 }
 
-}  // namespace genio::cli
+}  // namespace genio
