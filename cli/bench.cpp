@@ -1,8 +1,13 @@
+#include "cli/bench.hpp"
+
 #include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/figures/benchmarks.hpp"
 #include "cli/bench_discover.hpp"
-#include "cli/commands.hpp"
+#include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "report/verification_report.hpp"
@@ -23,7 +28,7 @@ const std::string& needed(const std::string& value, const char* option, const st
 }
 
 int run(const BenchOptions& o) {
-  const auto report = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  const auto report = print_line;
   bench::Json j;
   if (o.what == "peer") {
     j = bench::peer(needed(o.data, "--data", o.what), report);
@@ -61,34 +66,33 @@ int run(const BenchOptions& o) {
 
 }  // namespace
 
-Runner add_bench(CLI::App& app) {
+Runner add_bench(Options& options) {
   auto o = std::make_shared<BenchOptions>();
-  app.add_option("what", o->what,
-                 "forward, dynamic, robustness, verification, inverse, reach, peer, gesture, "
-                 "discover, service, "
-                 "ultrasound, grenoble, grenoble-gravity")
-      ->required()
-      ->check(CLI::IsMember({"forward", "dynamic", "robustness", "verification", "inverse", "reach",
-                             "peer", "gesture", "discover", "service", "ultrasound", "grenoble",
-                             "grenoble-gravity"}));
-  app.add_option("--model", o->model, "Model folder or model.toml");
-  app.add_option("--data", o->data,
-                 "grenoble, peer, dynamic, verification: folder of the ANSYS files");
-  app.add_option("--target", o->target, "ultrasound: contours, one label a word");
-  app.add_option("--palate", o->palate, "ultrasound: palate trace of the same session");
-  app.add_option("--sample", o->sample,
-                 "Random cases: robustness (500), reach (200), inverse (20), discover (all)")
-      ->check(CLI::Range(1, 100000));
-  app.add_option("--threads", o->threads, "discover: data sets at a time")
-      ->check(CLI::Range(1, 1024));
-  app.add_flag("--only-data", o->only_data, "discover: make the data sets, run nothing");
-  app.add_option("--only", o->only, "discover: data sets whose names contain this");
-  app.add_option("--seed", o->seed, "discover: which random cases a sample takes");
-  app.add_flag("--all", o->all, "ultrasound: every frame, not one a word");
-  app.add_option("--out", o->out,
-                 "verification: folder for its tables and plots; discover: for data and results");
-  app.add_flag("--json", o->json, "One JSON object on standard output");
-  app.footer("Example: genio bench inverse");
+  options.add(
+      "what", o->what,
+      "forward, dynamic, robustness, verification, inverse, reach, peer, gesture, "
+      "discover, service, "
+      "ultrasound, grenoble, grenoble-gravity",
+      {.required = true,
+       .among = {"forward", "dynamic", "robustness", "verification", "inverse", "reach", "peer",
+                 "gesture", "discover", "service", "ultrasound", "grenoble", "grenoble-gravity"}});
+  options.add("--model", o->model, "Model folder or model.toml");
+  options.add("--data", o->data,
+              "grenoble, peer, dynamic, verification: folder of the ANSYS files");
+  options.add("--target", o->target, "ultrasound: contours, one label a word");
+  options.add("--palate", o->palate, "ultrasound: palate trace of the same session");
+  options.add("--sample", o->sample,
+              "Random cases: robustness (500), reach (200), inverse (20), discover (all)",
+              {.range = {{1, 100000}}});
+  options.add("--threads", o->threads, "discover: data sets at a time", {.range = {{1, 1024}}});
+  options.flag("--only-data", o->only_data, "discover: make the data sets, run nothing");
+  options.add("--only", o->only, "discover: data sets whose names contain this");
+  options.add("--seed", o->seed, "discover: which random cases a sample takes");
+  options.flag("--all", o->all, "ultrasound: every frame, not one a word");
+  options.add("--out", o->out,
+              "verification: folder for its tables and plots; discover: for data and results");
+  options.flag("--json", o->json, "One JSON object on standard output");
+  options.footer("Example: genio bench inverse");
   return [o] { return run(*o); };
 }
 

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "bench/figures/discover_table.hpp"
-#include "cli/json_lines.hpp"
-#include "cli/progress_line.hpp"
-#include "cli/workers.hpp"
+#include "runs/line_log.hpp"
+#include "runs/progress_line.hpp"
+#include "runs/workers.hpp"
 
 namespace genio::cli {
 
@@ -28,23 +29,28 @@ nlohmann::json bench_discover(const std::string& model, const std::string& folde
                     only));
   if (sample > 0 && size_t(sample) < cases.size()) cases.resize(size_t(sample));
   std::filesystem::create_directories(folder);
-  JsonLines log(folder + (only_data ? "/prepared.jsonl" : "/results.jsonl"), "case");
   std::vector<nlohmann::json> results;
-  for (const auto& known : log.known())
+  const auto take_up = [&](const std::string& line) {
+    const auto known = nlohmann::json::parse(line, nullptr, false);
+    if (!known.is_object() || !known.contains("case")) return false;
     if (std::erase_if(cases, [&](const HiddenCase& c) { return c.name == known["case"]; }) > 0)
       results.push_back(known);
+    return true;
+  };
+  LineLog log(folder + (only_data ? "/prepared.jsonl" : "/results.jsonl"), take_up);
   const ModelDescription tongue = read_description(model);
   const int workers = std::clamp(threads, 1, std::max(1, int(cases.size())));
   ProgressLine progress(int(results.size()), int(results.size() + cases.size()), "data sets");
   const auto work = [&](int w, const Send& send) {
     bench::KnownShapes known;
     for (size_t k = size_t(w); k < cases.size(); k += size_t(workers))
-      send(only_data ? bench::prepare_discover_case(tongue, cases[k], folder, known)
-                     : bench::run_discover_case(tongue, cases[k], folder, known));
+      send((only_data ? bench::prepare_discover_case(tongue, cases[k], folder, known)
+                      : bench::run_discover_case(tongue, cases[k], folder, known))
+               .dump());
   };
-  const auto collect = [&](const nlohmann::json& j) {
-    log.add(j);
-    results.push_back(j);
+  const auto collect = [&](const std::string& line) {
+    log.add(line);
+    results.push_back(nlohmann::json::parse(line));
     progress.step();
   };
   if (!cases.empty()) in_processes(workers, work, collect);

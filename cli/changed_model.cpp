@@ -1,18 +1,20 @@
+#include "cli/changed_model.hpp"
+
 #include <fmt/format.h>
 
-#include "cli/motion.hpp"
+#include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 
 namespace genio::cli {
 
-Model changed_model(const ForwardOptions& o) {
-  auto description = read_description(o.model);
-  for (const auto& name : o.without)
+Model changed_model(const std::string& model, const ModelChanges& changes) {
+  auto description = read_description(model);
+  for (const auto& name : changes.without)
     if (description.effects.erase(name) == 0)
       throw InputError(fmt::format("--without {}: the model has no such effect", name));
   bool kappa_given = false;
-  for (const auto& text : o.effects) {
+  for (const auto& text : changes.effects) {
     const auto [name, value] = parse_assignment("--effect", text);
     if (name.find('.') == std::string::npos)
       throw InputError(fmt::format("--effect {}: expected NAME.parameter=VALUE", text));
@@ -29,7 +31,7 @@ Model changed_model(const ForwardOptions& o) {
       table["kappa"] *= value / table["a10"];
     table[key] = value;
   }
-  return build_model(description, o.model);
+  return build_model(description, model);
 }
 
 Parameters commanded(const Model& model, const std::vector<std::string>& forces) {
@@ -39,24 +41,6 @@ Parameters commanded(const Model& model, const std::vector<std::string>& forces)
     set_command(model, name, value, p);
   }
   return p;
-}
-
-nlohmann::json landmarks_json(const Model& m, const Positions& x) {
-  nlohmann::json j;
-  for (const auto& [name, node] : {std::pair{"tip", m.landmarks.tip},
-                                   {"dorsum", m.landmarks.dorsum},
-                                   {"root", m.landmarks.root}}) {
-    const Vec3 u = 1e3 * (node_position(x, node) - node_position(m.rest, node));
-    j[name] = {{"dx_mm", u[0]}, {"dy_mm", u[1]}, {"dz_mm", u[2]}};
-  }
-  return j;
-}
-
-void print_landmarks(const nlohmann::json& j) {
-  for (const char* name : {"tip", "dorsum", "root"})
-    fmt::print("  {:<7} dx {:7.2f}  dy {:7.2f}  dz {:7.2f} mm\n", name,
-               j[name]["dx_mm"].get<double>(), j[name]["dy_mm"].get<double>(),
-               j[name]["dz_mm"].get<double>());
 }
 
 }  // namespace genio::cli

@@ -1,10 +1,13 @@
-#include "discrepancy/contest/discover.hpp"
+#include "cli/discover.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <memory>
 
-#include "cli/commands.hpp"
+#include "cli/support.hpp"
+#include "discrepancy/contest/discover.hpp"
+#include "forward/base/text_file.hpp"
 #include "forward/model/build_model.hpp"
 #include "report/discovery_page.hpp"
 #include "report/discovery_pictures.hpp"
@@ -16,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct DiscoverCommand {
   std::string model = default_model(), observations, out;
   unsigned seed = 1;
   int refits = 5, effects = 3;
@@ -39,13 +42,13 @@ void print_table(const Discovery& d) {
              1e3 * d.heldout_after.rms, 1e3 * d.noise);
 }
 
-int run(const Options& o) {
+int run(const DiscoverCommand& o) {
   const ModelDescription description = read_description(o.model);
   const Observations observations =
       read_observations(o.observations, build_model(description, o.model));
   DiscoverOptions options;
   options.refits = o.refits, options.most_effects = o.effects;
-  options.progress = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  options.progress = print_line;
   const Discovery d = discover(description, observations, options);
   std::string model;
   if (!o.out.empty()) {
@@ -54,7 +57,7 @@ int run(const Options& o) {
       model = o.out + "/model";
       write_description(d.model, model);
     }
-    write_text(o.out + "/discovery.json", to_json(d, observations, model).dump(2) + "\n");
+    write_text(o.out + "/discovery.json", discovery_json(d, observations, model, 2) + "\n");
     const std::string maps = draw_maps(d, observations);
     write_text(o.out + "/maps.svg", maps);
     write_png(o.out + "/maps.png", maps, 1.5);
@@ -63,25 +66,24 @@ int run(const Options& o) {
     write_png(o.out + "/contours.png", contours, 1.5);
     write_text(o.out + "/discovery.html", discovery_page(d, observations, description.name));
   }
-  if (o.json) fmt::print("{}\n", to_json(d, observations, model).dump());
+  if (o.json) fmt::print("{}\n", discovery_json(d, observations, model));
   else print_table(d);
   return done;
 }
 
 }  // namespace
 
-Runner add_discover(CLI::App& app) {
-  auto o = std::make_shared<Options>();
-  app.add_option("--model", o->model, "Model folder or model.toml");
-  app.add_option("--observations", o->observations, "TOML file of conditions")->required();
-  app.add_option("--out", o->out, "Folder for the patched model and the report");
-  app.add_option("--seed", o->seed, "Of what is drawn at random: nothing so far");
-  app.add_option("--refits", o->refits, "Candidates refitted a round (5)")
-      ->check(CLI::Range(1, 100));
-  app.add_option("--effects", o->effects, "Effects looked for, one after another (3)")
-      ->check(CLI::Range(1, 10));
-  app.add_flag("--json", o->json, "One JSON object on standard output");
-  app.footer("Example: genio discover --observations observations.toml --out found");
+Runner add_discover(Options& options) {
+  auto o = std::make_shared<DiscoverCommand>();
+  options.add("--model", o->model, "Model folder or model.toml");
+  options.add("--observations", o->observations, "TOML file of conditions", {.required = true});
+  options.add("--out", o->out, "Folder for the patched model and the report");
+  options.add("--seed", o->seed, "Of what is drawn at random: nothing so far");
+  options.add("--refits", o->refits, "Candidates refitted a round (5)", {.range = {{1, 100}}});
+  options.add("--effects", o->effects, "Effects looked for, one after another (3)",
+              {.range = {{1, 10}}});
+  options.flag("--json", o->json, "One JSON object on standard output");
+  options.footer("Example: genio discover --observations observations.toml --out found");
   return [o] { return run(*o); };
 }
 

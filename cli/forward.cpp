@@ -1,11 +1,19 @@
+#include "cli/forward.hpp"
+
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/experiments/seed_suite.hpp"
+#include "cli/changed_model.hpp"
+#include "cli/landmarks.hpp"
 #include "cli/motion.hpp"
+#include "cli/result_json.hpp"
+#include "cli/support.hpp"
+#include "forward/base/elapsed.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "report/motion_report.hpp"
@@ -13,10 +21,16 @@
 namespace genio::cli {
 namespace {
 
+struct ForwardOptions {
+  std::string model = default_model(), out, suite;
+  ModelChanges changes;
+  SimulationOptions motion;
+  bool small = false, dynamic = false, json = false;
+};
+
 /// Published results on this tongue.
 int run_suite(const ForwardOptions& o) {
-  const auto result = seed_suite(read_description(o.model), o.model, o.out,
-                                 [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
+  const auto result = seed_suite(read_description(o.model), o.model, o.out, print_line);
   if (o.json) {
     fmt::print("{}\n", result.dump());
   } else {
@@ -28,38 +42,34 @@ int run_suite(const ForwardOptions& o) {
   return done;
 }
 
-int run(const ForwardOptions& o) {
-  if (!o.suite.empty()) return run_suite(o);
-  const Model m = changed_model(o);
-  if (o.dynamic) return run_motion(m, o);
-  const Parameters p = commanded(m, o.forces);
+void print_statics(const StaticsResult& r) {
+  fmt::print("equilibrium in {} Newton steps, {} factorisations, {:.2f} s\n", r.newton_iterations,
+             r.factorizations, r.wall_s);
+  print_landmarks(r.shape->landmarks);
+  fmt::print("  volume {:+.3f} %, deepest contact {:.3f} mm\n", r.shape->volume_change_percent,
+             r.shape->max_penetration_mm);
+}
+
+int run_statics(const Model& m, const ForwardOptions& o) {
+  const Parameters p = commanded(m, o.motion.forces);
   Workspace ws(m);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Equilibrium e =
       o.small ? solve_small_deformation(m, p, ws) : solve_equilibrium(m, p, m.rest, ws);
-  const double wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  nlohmann::json j = {{"status", e ? "converged" : "failed"},
-                      {"message", e.message},
-                      {"newton_iterations", e.newton_iterations},
-                      {"factorizations", e.factorizations},
-                      {"wall_s", wall}};
-  if (e) {
-    j["volume_change_percent"] = 100 * (mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest) - 1);
-    j["max_penetration_mm"] = 1e3 * max_penetration(m, e.x, e.parameters);
-    j["energy_J"] = e.energy;
-    j["landmarks"] = landmarks_json(m, e.x);
-  }
-  if (o.json) fmt::print("{}\n", j.dump());
-  else if (e) {
-    fmt::print("equilibrium in {} Newton steps, {} factorisations, {:.2f} s\n", e.newton_iterations,
-               e.factorizations, wall);
-    print_landmarks(j["landmarks"]);
-    fmt::print("  volume {:+.3f} %, deepest contact {:.3f} mm\n",
-               j["volume_change_percent"].get<double>(), j["max_penetration_mm"].get<double>());
-  } else {
-    fmt::print(stderr, "genio forward: {}\n", e.message);
-  }
+  StaticsResult result{.message = e.message,
+                       .newton_iterations = e.newton_iterations,
+                       .factorizations = e.factorizations,
+                       .wall_s = watch.seconds(),
+                       .shape = {}};
+  if (e)
+    result.shape = StaticsResult::Shape{
+        .volume_change_percent = 100 * (mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest) - 1),
+        .max_penetration_mm = 1e3 * max_penetration(m, e.x, e.parameters),
+        .energy_J = e.energy,
+        .landmarks = landmark_shifts(m, e.x)};
+  if (o.json) fmt::print("{}\n", statics_json(result));
+  else if (e) print_statics(result);
+  else fmt::print(stderr, "genio forward: {}\n", e.message);
   if (e && !o.out.empty()) {
     std::filesystem::create_directories(o.out);
     write_shape(m, e.x, (std::filesystem::path(o.out) / "shape.vtu").string());
@@ -67,21 +77,30 @@ int run(const ForwardOptions& o) {
   return e ? done : no_answer;
 }
 
+int run(const ForwardOptions& o) {
+  if (!o.suite.empty()) return run_suite(o);
+  const Model m = changed_model(o.model, o.changes);
+  if (!o.dynamic) return run_statics(m, o);
+  if (o.small) throw InputError("--dynamic: not together with --small-deformation");
+  return run_motion(m, o.motion, o.out, o.json);
+}
+
 }  // namespace
 
-Runner add_forward(CLI::App& app) {
+Runner add_forward(Options& options) {
   auto o = std::make_shared<ForwardOptions>();
-  app.add_option("--model", o->model, "Model folder or model.toml");
-  app.add_option("--force", o->forces, "NAME=NEWTONS, whole muscle for a bilateral name");
-  app.add_option("--effect", o->effects, "NAME.param=VALUE, SI units");
-  app.add_option("--without", o->without, "Leave an effect of the model out");
-  app.add_flag("--small-deformation", o->small, "Linear framework of the rest shape");
-  app.add_option("--suite", o->suite, "seed: the published results, on this tongue")
-      ->check(CLI::IsMember({"seed"}));
-  add_motion_options(app, *o);
-  app.add_flag("--json", o->json, "One JSON object on standard output");
-  app.add_option("--out", o->out, "Folder for shape.vtu, or motion.pvd and landmarks.csv");
-  app.footer(
+  options.add("--model", o->model, "Model folder or model.toml");
+  options.add("--force", o->motion.forces, "NAME=NEWTONS, whole muscle for a bilateral name");
+  options.add("--effect", o->changes.effects, "NAME.param=VALUE, SI units");
+  options.add("--without", o->changes.without, "Leave an effect of the model out");
+  options.flag("--small-deformation", o->small, "Linear framework of the rest shape");
+  options.add("--suite", o->suite, "seed: the published results, on this tongue",
+              {.among = {"seed"}});
+  options.flag("--dynamic", o->dynamic, "Motion from rest instead of equilibrium");
+  add_motion_options(options, o->motion);
+  options.flag("--json", o->json, "One JSON object on standard output");
+  options.add("--out", o->out, "Folder for shape.vtu, or motion.pvd and landmarks.csv");
+  options.footer(
       "Examples: genio forward --force GGP=4 --force TRANS=0.2 --out shape\n"
       "          genio forward --dynamic --force GGP=4 --duration 0.12 --step 0.002 --out motion");
   return [o] { return run(*o); };

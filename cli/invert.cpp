@@ -1,15 +1,25 @@
+#include "cli/invert.hpp"
+
 #include <fmt/format.h>
 
-#include "cli/commands.hpp"
-#include "cli/offline.hpp"
-#include "cli/progress_line.hpp"
-#include "cli/result_log.hpp"
-#include "cli/together.hpp"
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "cli/measured_options.hpp"
+#include "cli/support.hpp"
+#include "forward/base/text_file.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "inverse/prior/prior_file.hpp"
-#include "inverse/recording/frame_target.hpp"
+#include "report/answer_report.hpp"
+#include "report/motion_report.hpp"
 #include "report/run_summary.hpp"
+#include "runs/frame_by_frame.hpp"
+#include "runs/movement_run.hpp"
+#include "runs/progress_line.hpp"
+#include "runs/result_log.hpp"
+#include "runs/smooth_run.hpp"
 
 namespace genio::cli {
 namespace {
@@ -21,25 +31,25 @@ struct InvertOptions {
   std::string model = default_model(), out, prior;
   double deadline_s = 0;
   int starts = 0, threads = 1;
-  bool bilateral = false, robust = false, sequence = false, resume = false, json = false;
-  bool full_space = false;
-  bool smooth = false;
-  TogetherOptions together;
+  bool bilateral = false, robust = false, resume = false, json = false, full_space = false;
+  bool sequence = false, smooth = false, dynamic = false;
+  MovementOptions movement;
 };
 
-/// All of them before the first is worked on: a bad point should not end hours of work.
-std::vector<Frame> all_frames(const Model& model, const Measured& measured,
-                              const InvertOptions& o) {
-  std::vector<Frame> frames;
+void check(const InvertOptions& o) {
+  if (o.smooth + o.dynamic + o.sequence > 1)
+    throw InputError("--sequence, --smooth and --dynamic: one of them");
+  if (!(o.movement.knot_s > 0) || !(o.movement.step_s > 0))
+    throw InputError("--knot-s and --step-s: must be above 0");
+  if (o.resume && o.out.empty()) throw InputError("--resume: needs the --out of the earlier run");
+}
+
+std::vector<Frame> frames_of(const Model& model, const Measured& measured, const InvertOptions& o) {
   try {
-    for (const ContourFrame& contour : measured.frames) {
-      frames.push_back({contour, make_target(model, contour, measured.noise)});
-      if (o.robust) frames.back().target.outlier_dof = outlier_dof;
-    }
+    return make_frames(model, measured.frames, measured.noise, o.robust ? outlier_dof : 0);
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", o.measured.target, e.what()));
   }
-  return frames;
 }
 
 /// Errors name the file; a wrong muscle should not wait for the first frame.
@@ -55,7 +65,7 @@ Prior checked_prior(const Model& model, const InvertOptions& o) {
 }
 
 /// Everything an answer depends on.
-nlohmann::json question(const InvertOptions& o, double noise) {
+Question question(const InvertOptions& o, double noise) {
   return {{"model", o.model},
           {"target", o.measured.target},
           {"palate", o.measured.palate},
@@ -72,118 +82,131 @@ nlohmann::json question(const InvertOptions& o, double noise) {
           {"sequence", o.sequence},
           {"full_space", o.full_space},
           {"smooth", o.smooth},
-          {"dynamic", o.together.dynamic},
-          {"knot_s", o.together.knot_s},
-          {"step_s", o.together.step_s},
-          {"from_rest", o.together.from_rest},
-          {"start_s", o.together.start_s ? nlohmann::json(*o.together.start_s) : nlohmann::json()}};
+          {"dynamic", o.dynamic},
+          {"knot_s", o.movement.knot_s},
+          {"step_s", o.movement.step_s},
+          {"from_rest", o.movement.from_rest},
+          {"start_s", o.movement.start_s ? QuestionValue(*o.movement.start_s) : QuestionValue()}};
+}
+
+FrameOptions frame_options(const Model& model, const InvertOptions& o) {
+  FrameOptions options;
+  options.prior = checked_prior(model, o);
+  options.infer.deadline_s = o.deadline_s;
+  options.infer.full_space = o.full_space;
+  if (o.bilateral) options.infer.bilateral = true;
+  options.starts = {o.starts};
+  return options;
+}
+
+/// Writes the answer's files. Gives its line of JSON, and below what people read.
+std::string message(const Model& model, const ContourFrame& frame, const AnswerView& view,
+                    const Positions& shape, const std::string& out) {
+  if (!out.empty()) {
+    const std::string name = frame_name(frame);
+    write_report(model, view, frame.number, out, name);
+    if (shape.size() > 0) write_shape(model, shape, out + "/" + name + ".vtu");
+  }
+  return answer_json(view, frame.number) + "\n" + view.title + "\n" + to_table(view);
+}
+
+/// The commands as `genio forward --dynamic --commands` takes them, and the motion.
+void write_movement(const Model& model, const MotionAnswer& a, const std::string& out) {
+  if (out.empty() || a.status != InferStatus::converged) return;
+  write_text(out + "/commands.csv", commands_csv(a));
+  std::filesystem::create_directories(out + "/motion");
+  write_motion(model, a.trajectory, out + "/motion");
+}
+
+/// Hands the message() of each frame that is not known to `collect`.
+void answer(const Model& model, const std::vector<Frame>& frames, const FrameOptions& options,
+            const AnswerRecords& known, const InvertOptions& o, const Send& collect) {
+  const std::vector<Frame> open = open_frames(frames, known);
+  const auto to_message = [&](const ContourFrame& frame, const AnswerView& view,
+                              const Positions& shape) {
+    return message(model, frame, view, shape, o.out);
+  };
+  if (!o.smooth && !o.dynamic)
+    return answer_in_processes(model, open, {options, o.sequence}, known, o.threads, to_message,
+                               collect);
+  if (open.empty()) return;
+  const Checkpoint checkpoint(o.out, o.resume);
+  const TakeAnswer take = [&](const ContourFrame& frame, const AnswerView& view,
+                              const Positions& shape) {
+    const std::string text = to_message(frame, view, shape);
+    if (!known.contains(frame.number)) collect(text);
+  };
+  if (o.smooth)
+    return answer_smooth(model, frames, options, o.threads, checkpoint, print_progress, take);
+  const MotionAnswer a =
+      answer_movement(model, frames, options, o.movement, checkpoint, print_progress, take);
+  write_movement(model, a, o.out);
 }
 
 int run(const InvertOptions& o) {
-  const bool together = o.smooth || o.together.dynamic;
-  if (o.smooth + o.together.dynamic + o.sequence > 1)
-    throw InputError("--sequence, --smooth and --dynamic: one of them");
-  if (!(o.together.knot_s > 0) || !(o.together.step_s > 0))
-    throw InputError("--knot-s and --step-s: must be above 0");
-  if (o.resume && o.out.empty()) throw InputError("--resume: needs the --out of the earlier run");
+  check(o);
   const Model model = read_model(o.model);
-  const Measured measured = read_measured(o.measured, [&]() -> const Model& { return model; });
-  std::vector<Frame> frames = all_frames(model, measured, o);
-  OfflineOptions offline{checked_prior(model, o), {}, {o.starts}, o.sequence, o.out};
-  offline.infer.deadline_s = o.deadline_s;
-  offline.infer.full_space = o.full_space;
-  if (o.bilateral) offline.infer.bilateral = true;
-
+  const Measured measured = read_measured(
+      o.measured, [&]() -> const Model& { return model; }, print_line);
+  const std::vector<Frame> frames = frames_of(model, measured, o);
+  const FrameOptions options = frame_options(model, o);
   std::optional<ResultLog> log;
   if (!o.out.empty()) log.emplace(o.out, question(o, measured.noise), o.resume);
-  std::map<int, nlohmann::json> answers;
-  if (log) answers = log->known();
-  const std::vector<Frame> everything = together ? frames : std::vector<Frame>();
-  std::vector<Frame> open;
-  for (Frame& frame : frames)
-    if (!answers.contains(frame.contour.number)) open.push_back(std::move(frame));
-  if (!answers.empty())
-    fmt::print(stderr, "{} of {} frames are known from the run before\n", answers.size(),
+  const AnswerRecords known = log ? log->known() : AnswerRecords();
+  if (!known.empty())
+    fmt::print(stderr, "{} of {} frames are known from the run before\n", known.size(),
                frames.size());
-
-  ProgressLine progress(int(answers.size()), int(frames.size()));
-  // Runs of neighbours, as each frame starts where the one before ended.
-  const int workers = std::clamp(o.threads, 1, std::max(1, int(open.size())));
-  const auto share = [&](int k) { return open.size() * size_t(k) / size_t(workers); };
-  const auto collect = [&](const nlohmann::json& result) {
-    const auto& answer = result["answer"];
-    if (log) log->add(answer);
-    answers[answer["frame"].get<int>()] = answer;
-    if (o.json) fmt::print("{}\n", answer.dump());
-    else
-      fmt::print("{}\n{}\n", result["title"].get<std::string>(),
-                 result["table"].get<std::string>());
+  AnswerRecords answers = known;
+  ProgressLine progress(int(known.size()), int(frames.size()));
+  answer(model, frames, options, known, o, [&](const std::string& text) {
+    const size_t end = text.find('\n');
+    const AnswerRecord record = read_record(text.substr(0, end)).value();
+    if (log) log->add(record);
+    fmt::print("{}\n", o.json ? record.line : text.substr(end + 1));
     std::fflush(stdout);
+    answers[record.frame] = record;
     progress.step();
-  };
-  if (together) {
-    TogetherOptions how = o.together;
-    how.threads = o.threads, how.resume = o.resume;
-    if (!open.empty())
-      answer_together(model, everything, offline, how, [&](const auto& result) {
-        if (!answers.contains(result["answer"]["frame"].template get<int>())) collect(result);
-      });
-  } else {
-    in_processes(
-        workers,
-        [&](int k, const Send& send) {
-          const std::vector<Frame> mine(open.begin() + long(share(k)),
-                                        open.begin() + long(share(k + 1)));
-          nlohmann::json before;
-          if (!mine.empty())
-            if (const auto it = answers.find(mine.front().contour.number - 1); it != answers.end())
-              before = it->second;
-          answer_frames(model, mine, offline, before, send);
-        },
-        collect);
-  }
+  });
   if (frames.size() > 1) fmt::print(stderr, "{}", summary_text(answers));
   if (log) write_summary(answers, o.out);
   return std::all_of(answers.begin(), answers.end(),
-                     [](const auto& a) { return a.second.value("status", "") == "converged"; })
+                     [](const auto& a) { return a.second.converged(); })
              ? done
              : no_answer;
 }
 
 }  // namespace
 
-Runner add_invert(CLI::App& app) {
+Runner add_invert(Options& options) {
   auto o = std::make_shared<InvertOptions>();
-  app.add_option("--model", o->model, "Model folder or model.toml");
-  add_measured_options(app, o->measured);
-  app.add_option("--prior", o->prior, "What is believed before: TOML, or a CSV of EMG");
-  app.add_option("--starts", o->starts,
-                 "Descents a frame; more find other answers that fit (0: until the shape is "
-                 "explained)")
-      ->check(CLI::Range(0, 1000));
-  app.add_flag("--sequence", o->sequence, "Activations walk from frame to frame");
-  app.add_flag("--smooth", o->smooth, "The same, all frames as one smoothing problem");
-  app.add_flag("--dynamic", o->together.dynamic,
-               "All frames as one movement, with inertia and viscosity");
-  app.add_option("--knot-s", o->together.knot_s, "--dynamic: between bends of the commands [s]")
-      ->capture_default_str();
-  app.add_option("--step-s", o->together.step_s, "--dynamic: time step [s]")->capture_default_str();
-  app.add_option("--start-s", o->together.start_s,
-                 "--dynamic: when the movement starts [s] (0.1 s before the first frame)");
-  app.add_flag("--from-rest", o->together.from_rest,
+  options.add("--model", o->model, "Model folder or model.toml");
+  add_measured_options(options, o->measured);
+  options.add("--prior", o->prior, "What is believed before: TOML, or a CSV of EMG");
+  options.add("--starts", o->starts,
+              "Descents a frame; more find other answers that fit (0: until the shape is "
+              "explained)",
+              {.range = {{0, 1000}}});
+  options.flag("--sequence", o->sequence, "Activations walk from frame to frame");
+  options.flag("--smooth", o->smooth, "The same, all frames as one smoothing problem");
+  options.flag("--dynamic", o->dynamic, "All frames as one movement, with inertia and viscosity");
+  options.add("--knot-s", o->movement.knot_s, "--dynamic: between bends of the commands [s]",
+              {.shows_default = true});
+  options.add("--step-s", o->movement.step_s, "--dynamic: time step [s]", {.shows_default = true});
+  options.add("--start-s", o->movement.start_s,
+              "--dynamic: when the movement starts [s] (0.1 s before the first frame)");
+  options.flag("--from-rest", o->movement.from_rest,
                "--dynamic: starts without commands; else from a posture that is found along");
-  app.add_flag("--full-space", o->full_space,
+  options.flag("--full-space", o->full_space,
                "Positions and commands together as unknowns: slower, to check the default by");
-  app.add_flag("--robust", o->robust, "Noise with outliers (Student's t)");
-  app.add_flag("--bilateral", o->bilateral, "Left and right together");
-  app.add_option("--deadline-s", o->deadline_s, "Time a frame may take");
-  app.add_option("--threads", o->threads,
-                 "Worker processes, each with a run of neighbouring frames")
-      ->check(CLI::Range(1, 256));
-  app.add_flag("--json", o->json, "One JSON object a frame on standard output");
-  app.add_option("--out", o->out, "Folder for results.jsonl, a summary, pictures and shapes");
-  app.add_flag("--resume", o->resume, "Take up an interrupted run with the same --out");
-  app.footer("Example: genio invert --target data/examples/example_shape.csv --out results");
+  options.flag("--robust", o->robust, "Noise with outliers (Student's t)");
+  options.flag("--bilateral", o->bilateral, "Left and right together");
+  options.add("--deadline-s", o->deadline_s, "Time a frame may take");
+  options.add("--threads", o->threads, "Worker processes, each with a run of neighbouring frames",
+              {.range = {{1, 256}}});
+  options.flag("--json", o->json, "One JSON object a frame on standard output");
+  options.add("--out", o->out, "Folder for results.jsonl, a summary, pictures and shapes");
+  options.flag("--resume", o->resume, "Take up an interrupted run with the same --out");
+  options.footer("Example: genio invert --target data/examples/example_shape.csv --out results");
   return [o] { return run(*o); };
 }
 

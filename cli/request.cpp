@@ -1,12 +1,17 @@
+#include "cli/request.hpp"
+
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <memory>
 
-#include "cli/commands.hpp"
-#include "cli/measured.hpp"
+#include "cli/measured_options.hpp"
+#include "cli/result_json.hpp"
+#include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
+#include "report/answer_report.hpp"
+#include "runs/answer_record.hpp"
+#include "runs/frames.hpp"
 #include "server/client.hpp"
 
 namespace genio::cli {
@@ -78,7 +83,7 @@ int run_request(const RequestOptions& o) {
     if (!read) read.emplace(read_model(o.model));
     return *read;
   };
-  const Measured measured = read_measured(o.measured, model);
+  const Measured measured = read_measured(o.measured, model, print_line);
   Client client(choose_url(o.url));
   bool all = true;
   for (const auto& frame : measured.frames) {
@@ -93,7 +98,9 @@ int run_request(const RequestOptions& o) {
                                            choose_url(o.url), o.timeout_s));
     const AnswerView view = view_of(*reply, frame);
     all &= view.status == "converged";
-    print_answer(view, frame.number, o.json);
+    if (o.json) fmt::print("{}\n", answer_json(view, frame.number));
+    else fmt::print("{}\n{}\n", view.title, to_table(view));
+    std::fflush(stdout);
     if (!o.out.empty()) write_report(model(), view, frame.number, o.out, frame_name(frame));
   }
   return all ? done : no_answer;
@@ -105,36 +112,30 @@ int run_status(const RequestOptions& o) {
   if (!s)
     throw std::runtime_error(
         fmt::format("no server on {} within {} s", choose_url(o.url), o.timeout_s));
-  const nlohmann::json j = {{"version", s->version},   {"model", s->model},
-                            {"queued", s->queued},     {"running", s->running},
-                            {"received", s->received}, {"replied", s->replied},
-                            {"refused", s->refused},   {"uptime_s", s->uptime_s}};
-  fmt::print("{}\n", o.json ? j.dump() : j.dump(2));
+  fmt::print("{}\n", status_json(*s, o.json ? -1 : 2));
   return done;
 }
 
 }  // namespace
 
-Runner add_request(CLI::App& app) {
+Runner add_request(Options& options) {
   auto o = std::make_shared<RequestOptions>();
-  app.add_option("--lcm", o->url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
-  add_measured_options(app, o->measured);
-  app.add_option("--timeout-s", o->timeout_s, "How long to wait for each reply");
-  app.add_option("--deadline-s", o->deadline_s, "Time the server may compute");
-  app.add_option("--starts", o->starts, "Descents, to find other answers that fit")
-      ->check(CLI::Range(0, 1000));
-  app.add_option("--model", o->model, "Model to register with and to show in the picture");
-  app.add_flag("--json", o->json, "One JSON object a frame on standard output");
-  app.add_option("--out", o->out, "Folder for pictures and numbers");
-  auto* status = app.add_subcommand("status", "What the server is doing");
-  status->fallthrough();
-  auto* cancel = app.add_subcommand("cancel", "Withdraw a request");
-  cancel->fallthrough();
-  cancel->add_option("id", o->cancel_id, "Id of the request")->required();
-  app.footer("Example: genio request --target data/examples/example_shape.csv");
+  options.add("--lcm", o->url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
+  add_measured_options(options, o->measured);
+  options.add("--timeout-s", o->timeout_s, "How long to wait for each reply");
+  options.add("--deadline-s", o->deadline_s, "Time the server may compute");
+  options.add("--starts", o->starts, "Descents, to find other answers that fit",
+              {.range = {{0, 1000}}});
+  options.add("--model", o->model, "Model to register with and to show in the picture");
+  options.flag("--json", o->json, "One JSON object a frame on standard output");
+  options.add("--out", o->out, "Folder for pictures and numbers");
+  const Options status = options.subcommand("status", "What the server is doing");
+  Options cancel = options.subcommand("cancel", "Withdraw a request");
+  cancel.add("id", o->cancel_id, "Id of the request", {.required = true});
+  options.footer("Example: genio request --target data/examples/example_shape.csv");
   return [o, status, cancel]() -> int {
-    if (status->parsed()) return run_status(*o);
-    if (cancel->parsed()) {
+    if (status.chosen()) return run_status(*o);
+    if (cancel.chosen()) {
       Client(choose_url(o->url)).cancel(o->cancel_id);
       return done;
     }

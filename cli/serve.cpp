@@ -1,9 +1,11 @@
+#include "cli/serve.hpp"
+
 #include <fmt/format.h>
 
 #include <csignal>
 #include <memory>
 
-#include "cli/commands.hpp"
+#include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "server/hub.hpp"
@@ -17,32 +19,32 @@ std::atomic<bool> stop_requested{false};
 
 }  // namespace
 
-Runner add_serve(CLI::App& app) {
+Runner add_serve(Options& options) {
   auto url = std::make_shared<std::string>();
   auto model = std::make_shared<std::string>(default_model());
   auto queue = std::make_shared<int>(256);
-  app.add_option("--lcm", *url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
-  app.add_option("--model", *model, "Model folder or model.toml");
-  app.add_option("--queue", *queue, "Requests that may wait")->check(CLI::Range(1, 100000));
-  app.footer("Example: genio serve --lcm tcpq://127.0.0.1:7700");
+  options.add("--lcm", *url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
+  options.add("--model", *model, "Model folder or model.toml");
+  options.add("--queue", *queue, "Requests that may wait", {.range = {{1, 100000}}});
+  options.footer("Example: genio serve --lcm tcpq://127.0.0.1:7700");
   return [=]() -> int {
     const Model m = read_model(*model);
-    ServiceOptions options;
-    options.url = choose_url(*url);
-    options.queue = *queue;
-    options.log = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+    ServiceOptions service;
+    service.url = choose_url(*url);
+    service.queue = *queue;
+    service.log = print_line;
     std::unique_ptr<Hub> hub;
-    if (const uint16_t port = local_tcpq_port(options.url)) {
+    if (const uint16_t port = local_tcpq_port(service.url)) {
       try {
         hub = std::make_unique<Hub>(port);
       } catch (const std::exception& e) {
-        throw InputError(fmt::format("--lcm {}: {}", options.url, e.what()));
+        throw InputError(fmt::format("--lcm {}: {}", service.url, e.what()));
       }
     }
     std::signal(SIGINT, [](int) { stop_requested = true; });
     std::signal(SIGTERM, [](int) { stop_requested = true; });
-    fmt::print(stderr, "genio: serving '{}' on {}\n", m.name, options.url);
-    serve(m, options, stop_requested);
+    fmt::print(stderr, "genio: serving '{}' on {}\n", m.name, service.url);
+    serve(m, service, stop_requested);
     return done;
   };
 }

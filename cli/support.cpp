@@ -1,10 +1,11 @@
+#include "cli/support.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
-#include "cli/commands.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio::cli {
@@ -33,5 +34,7 @@ std::pair<std::string, double> parse_assignment(const std::string& option,
     throw InputError(fmt::format("{} {}: expected NAME=NUMBER, for example GGP=4", option, text));
   return {text.substr(0, equals), number};
 }
+
+void print_line(const std::string& line) { fmt::print(stderr, "{}\n", line); }
 
 }  // namespace genio::cli

@@ -4,64 +4,12 @@
 
 #include <filesystem>
 
+#include "forward/base/text_file.hpp"
+#include "inverse/target/tongue_line.hpp"
 #include "report/svg.hpp"
+#include "runs/answer_record.hpp"
 
 namespace genio {
-
-AnswerView view_of(const Model& model, const Target& target, const Answer& a,
-                   const std::string& title) {
-  AnswerView v;
-  v.title = title;
-  v.status = to_string(a.status), v.message = a.message, v.verdict = to_string(a.verdict);
-  v.muscles = a.muscles, v.others = a.others, v.trade_offs = a.unidentified;
-  for (const TradeOff& trade : a.unidentified) v.unidentified.push_back(names(trade));
-  v.weight = a.weight, v.alternatives = a.alternatives, v.outliers = a.residuals.outliers;
-  v.rms_mm = 1e3 * a.rms, v.max_mm = 1e3 * a.max, v.chi2_per_dof = a.chi2_per_dof;
-  v.wall_s = a.wall_s, v.iterations = a.iterations, v.factorizations = a.factorizations;
-  for (const auto& p : target.curve) v.measured.push_back(p.position);
-  for (const auto& p : target.flesh) v.measured.emplace_back(p.position[0], p.position[2]);
-  if (a.shape.size() > 0) v.predicted = TongueLine(model).sample(a.shape, 120);
-  return v;
-}
-
-nlohmann::json to_json(const AnswerView& v, int frame) {
-  nlohmann::json j;
-  j["frame"] = frame;
-  j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
-  for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation", "information_bits",
-                          "bound_multipliers", "estimated"})
-    j[key] = nlohmann::json::object();
-  for (const auto& c : v.muscles) {
-    j["forces_N"][c.name] = c.best;
-    j["sd_N"][c.name] = c.sd;
-    j["interval90_N"][c.name] = {c.low, c.high};
-    j["activation"][c.name] = c.best / c.maximum;
-    j["information_bits"][c.name] = c.information_bits;
-    if (c.multiplier > 0) j["bound_multipliers"][c.name] = c.multiplier;
-  }
-  for (const auto& c : v.others)
-    j["estimated"][c.name] = {
-        {"value", c.best}, {"unit", c.unit}, {"sd", c.sd}, {"interval90", {c.low, c.high}}};
-  j["rms_mm"] = v.rms_mm, j["max_mm"] = v.max_mm, j["chi2_per_dof"] = v.chi2_per_dof;
-  j["unidentified"] = v.unidentified;
-  j["trade_offs"] = nlohmann::json::array();
-  for (const TradeOff& trade : v.trade_offs) {
-    nlohmann::json one;
-    for (const Share& share : trade) one[share.name] = share.amount;
-    j["trade_offs"].push_back(std::move(one));
-  }
-  j["weight"] = v.weight;
-  j["alternatives"] = nlohmann::json::array();
-  for (const Alternative& other : v.alternatives) {
-    nlohmann::json one = {{"weight", other.weight}, {"rms_mm", 1e3 * other.rms}};
-    for (const auto& c : other.muscles) one["forces_N"][c.name] = c.best;
-    j["alternatives"].push_back(std::move(one));
-  }
-  j["outliers"] = v.outliers;
-  j["ipopt_iterations"] = v.iterations, j["factorizations"] = v.factorizations;
-  j["wall_s"] = v.wall_s;
-  return j;
-}
 
 std::string to_table(const AnswerView& v) {
   std::string out;
@@ -188,7 +136,7 @@ void write_report(const Model& model, const AnswerView& v, int frame, const std:
   const std::string picture = draw(model, v);
   write_text(base + ".svg", picture);
   write_png(base + ".png", picture, 1.5);
-  write_text(base + ".json", to_json(v, frame).dump(2) + "\n");
+  write_text(base + ".json", answer_json(v, frame, 2) + "\n");
   std::string csv = "muscle,force_N,max_force_N,sd_N,low90_N,high90_N\n";
   for (const auto& c : v.muscles)
     csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", c.name, c.best, c.maximum, c.sd,

@@ -1,5 +1,7 @@
 #include "report/discovery_report.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace genio {
 namespace {
 
@@ -102,6 +104,11 @@ Json to_json(const Discovery& d, const Observations& o, const std::string& model
             {"region", d.hidden.region}}},
           {"rounds", rounds},
           {"wall_s", d.seconds}};
+}
+
+std::string discovery_json(const Discovery& d, const Observations& o, const std::string& model,
+                           int indent) {
+  return to_json(d, o, model).dump(indent);
 }
 
 }  // namespace genio

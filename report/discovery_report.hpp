@@ -1,7 +1,8 @@
 #pragma once
 // What a discovery says, for programs.
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "discrepancy/contest/discovery.hpp"
 
@@ -11,5 +12,9 @@ namespace genio {
 /// model was written; empty: none.
 nlohmann::json to_json(const Discovery& discovery, const Observations& observations,
                        const std::string& model);
+
+/// The same as text; `indent` -1: on one line.
+std::string discovery_json(const Discovery& discovery, const Observations& observations,
+                           const std::string& model, int indent = -1);
 
 }  // namespace genio

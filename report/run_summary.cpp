@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <vector>
 
+#include "forward/base/text_file.hpp"
 #include "report/plot.hpp"
 #include "report/svg.hpp"
 
 namespace genio {
 namespace {
 
-using nlohmann::json;
-
-std::string counts(const std::map<int, json>& answers, const char* key) {
+std::string counts(const AnswerRecords& answers, std::string AnswerRecord::*word) {
   std::map<std::string, int> count;
-  for (const auto& [frame, a] : answers) ++count[a.value(key, "none")];
+  for (const auto& [frame, a] : answers) ++count[a.*word];
   std::string text;
   for (const auto& [name, n] : count)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, name);
@@ -28,26 +27,31 @@ double quantile(std::vector<double> v, double p) {
   return v[std::min(v.size() - 1, size_t(p * double(v.size())))];
 }
 
-bool answered(const json& a) { return a.value("status", "") == "converged"; }
+/// 0 where it is not there.
+double value(const std::map<std::string, double>& by_muscle, const std::string& muscle) {
+  const auto it = by_muscle.find(muscle);
+  return it == by_muscle.end() ? 0 : it->second;
+}
 
 }  // namespace
 
-std::string summary_text(const std::map<int, json>& answers) {
+std::string summary_text(const AnswerRecords& answers) {
   std::vector<double> rms, wall;
   for (const auto& [frame, a] : answers)
-    if (answered(a)) rms.push_back(a["rms_mm"]), wall.push_back(a["wall_s"]);
+    if (a.converged()) rms.push_back(a.rms_mm), wall.push_back(a.wall_s);
   return fmt::format(
       "{} frames\nstatus   {}\nverdict  {}\nfit      RMS {:.2f} mm in the median, {:.2f} mm in the "
       "worst tenth\ntime     {:.2f} s a frame in the median\n",
-      answers.size(), counts(answers, "status"), counts(answers, "verdict"), quantile(rms, 0.5),
-      quantile(rms, 0.9), quantile(wall, 0.5));
+      answers.size(), counts(answers, &AnswerRecord::status),
+      counts(answers, &AnswerRecord::verdict), quantile(rms, 0.5), quantile(rms, 0.9),
+      quantile(wall, 0.5));
 }
 
-void write_summary(const std::map<int, json>& answers, const std::string& folder) {
+void write_summary(const AnswerRecords& answers, const std::string& folder) {
   std::vector<std::string> muscles;
   for (const auto& [frame, a] : answers)
-    if (answered(a)) {
-      for (const auto& [name, force] : a["forces_N"].items()) muscles.push_back(name);
+    if (a.converged()) {
+      for (const auto& [name, force] : a.forces_N) muscles.push_back(name);
       break;
     }
   std::string csv = "frame,status,verdict,rms_mm,max_mm,chi2_per_dof";
@@ -56,18 +60,16 @@ void write_summary(const std::map<int, json>& answers, const std::string& folder
   std::vector<Series> series;
   for (const auto& m : muscles) series.push_back({m, {}});
   for (const auto& [frame, a] : answers) {
-    csv += fmt::format("{},{},{}", frame, a.value("status", ""), a.value("verdict", ""));
-    if (!answered(a)) {
+    csv += fmt::format("{},{},{}", frame, a.status, a.verdict);
+    if (!a.converged()) {
       csv += std::string(3 + 2 * muscles.size(), ',') + "\n";
       continue;
     }
-    for (const char* key : {"rms_mm", "max_mm", "chi2_per_dof"})
-      csv += fmt::format(",{:.4g}", a[key].get<double>());
+    csv += fmt::format(",{:.4g},{:.4g},{:.4g}", a.rms_mm, a.max_mm, a.chi2_per_dof);
     for (size_t m = 0; m < muscles.size(); ++m) {
       const std::string& name = muscles[m];
-      csv +=
-          fmt::format(",{:.5g},{:.5g}", a["forces_N"].value(name, 0.0), a["sd_N"].value(name, 0.0));
-      series[m].points.emplace_back(frame, 100 * a["activation"].value(name, 0.0));
+      csv += fmt::format(",{:.5g},{:.5g}", value(a.forces_N, name), value(a.sd_N, name));
+      series[m].points.emplace_back(frame, 100 * value(a.activation, name));
     }
     csv += "\n";
   }

@@ -5,10 +5,7 @@
 #include <librsvg/rsvg.h>
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
-
-#include "forward/base/types.hpp"
 
 namespace genio {
 namespace {
@@ -102,12 +99,6 @@ void write_png(const std::string& path, const std::string& svg, double scale) {
   g_clear_error(&error);
   if (!drawn || written != CAIRO_STATUS_SUCCESS)
     throw std::runtime_error(path + ": " + cairo_status_to_string(written));
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream out(path);
-  out << text;
-  if (!out.flush()) throw InputError(path + ": cannot be written");
 }
 
 }  // namespace genio

@@ -44,7 +44,4 @@ std::string escaped(const std::string& text);
 /// Renders SVG text to a PNG file at `scale` times its size. Throws std::runtime_error.
 void write_png(const std::string& path, const std::string& svg, double scale);
 
-/// Writes a whole text file. Throws InputError naming the path.
-void write_text(const std::string& path, const std::string& text);
-
 }  // namespace genio

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 
+#include "forward/base/text_file.hpp"
 #include "report/plot.hpp"
 #include "report/svg.hpp"
 

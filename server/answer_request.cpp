@@ -1,17 +1,17 @@
+#include "server/answer_request.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/search/multi_start.hpp"
-#include "server/service.hpp"
 
 namespace genio {
 
 constexpr int most_starts = 1000;
 
 struct RequestWorker::State {
-  /// The atlas first: no request should wait for it.
   explicit State(const Model& m) : workspace(m) {
     TongueState* half = workspace.half(Prior{});
     TongueState& tongue = half ? *half : workspace.whole();

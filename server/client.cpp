@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <random>
+
+#include "forward/base/elapsed.hpp"
 
 namespace genio {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr double ask_again_s = 2;
 
 std::string unique_name() {
   std::random_device random;
@@ -47,12 +48,12 @@ std::optional<command_reply_t> Client::request(
   reply_.reset();
   progress_ = progress;
   const auto bytes = encode(request);
-  const auto end = Clock::now() + std::chrono::duration<double>(timeout_s);
-  auto ask_again = Clock::now();
-  while (!reply_ && Clock::now() < end) {
-    if (Clock::now() >= ask_again) {
+  const Stopwatch watch;
+  double ask_at = 0;
+  while (!reply_ && watch.seconds() < timeout_s) {
+    if (watch.seconds() >= ask_at) {
       link_.publish("GENIO_REQUEST", bytes);
-      ask_again = Clock::now() + std::chrono::seconds(2);
+      ask_at = watch.seconds() + ask_again_s;
     }
     link_.wait(20);
   }
@@ -68,8 +69,8 @@ void Client::cancel(const std::string& id) {
 
 std::optional<server_status_t> Client::status(double timeout_s) {
   status_.reset();
-  const auto end = Clock::now() + std::chrono::duration<double>(timeout_s);
-  while (!status_ && Clock::now() < end) link_.wait(50);
+  const Stopwatch watch;
+  while (!status_ && watch.seconds() < timeout_s) link_.wait(50);
   return status_;
 }
 

@@ -3,11 +3,9 @@
 
 #include <atomic>
 #include <functional>
-#include <memory>
 #include <string>
 
 #include "forward/model/model.hpp"
-#include "server/wire.hpp"
 
 namespace genio {
 
@@ -18,28 +16,9 @@ struct ServiceOptions {
   std::function<void(const std::string& line)> log;
 };
 
-/// Answer to one request: validates, builds the target, infers. Never throws: what is wrong with
-/// the request becomes a reply with status `failed`. `progress` and `cancelled` may be empty.
-command_reply_t answer_request(const Model& model, const shape_request_t& request,
-                               class RequestWorker& worker,
-                               const std::function<void(int, double)>& progress,
-                               const std::function<bool()>& cancelled);
-
-/// Scratch of one worker.
-class RequestWorker {
- public:
-  explicit RequestWorker(const Model& model);
-  ~RequestWorker();
-  struct State;
-  State& state() { return *state_; }
-
- private:
-  std::unique_ptr<State> state_;
-};
-
 /// Serves until `stop` becomes true. One thread owns the LCM connection, one computes (Ipopt with
 /// MUMPS is not thread-safe). Every request gets a reply; a repeated id gets the reply of the
-/// first, computed once.
+/// first, computed once. Throws InputError when the URL cannot be used.
 void serve(const Model& model, const ServiceOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace genio

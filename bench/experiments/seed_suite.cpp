@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 
+#include "forward/base/text_file.hpp"
 #include "forward/effects/muscles/muscles.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/statics/equilibrium.hpp"

@@ -3,24 +3,14 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <chrono>
 #include <thread>
 
 #include "bench/figures/benchmarks.hpp"
+#include "forward/base/elapsed.hpp"
 #include "server/client.hpp"
 #include "server/hub.hpp"
 
 namespace genio::bench {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 Json service(const Model& m) {
   const Hub hub(0);
   ServiceOptions options;
@@ -41,12 +31,12 @@ Json service(const Model& m) {
       r.sigma_mm = {1};
       r.kind = {"dorsum"};
       r.bilateral = 1;
-      const auto start = Clock::now();
+      const Stopwatch watch;
       const auto reply = client.request(r, 60);
       ++requests;
       if (!reply) continue;
       ++replies;
-      overhead.push_back(1e3 * (since(start) - reply->wall_s));
+      overhead.push_back(1e3 * (watch.seconds() - reply->wall_s));
     }
   }
   stop = true;

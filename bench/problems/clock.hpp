@@ -1,16 +1,17 @@
 #pragma once
 #include <algorithm>
-#include <chrono>
 #include <vector>
+
+#include "forward/base/elapsed.hpp"
 
 namespace genio::bench {
 
 /// Wall time of some work [s].
 template <class Work>
 double seconds(Work work) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return watch.seconds();
 }
 
 inline double median(std::vector<double> v) {

@@ -1,9 +1,9 @@
 #include "inverse/search/multi_start.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "forward/base/elapsed.hpp"
 #include "inverse/posterior/posterior.hpp"
 #include "inverse/search/full_space.hpp"
 #include "inverse/search/global_starts.hpp"
@@ -89,10 +89,7 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
         {options.start, options.start_shape.value_or(Positions()), options.start_by_unknown});
   std::vector<Answer> found;
   Answer last;
-  const auto started = std::chrono::steady_clock::now();
-  const auto wall = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  };
+  const Stopwatch watch;
   int iterations = 0, factorizations = 0, solves = 0;
   for (int k = 0; k < most; ++k) {
     if (size_t(k) == starts.size()) {  // not before they are needed: the nearest, then all others
@@ -107,7 +104,8 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     if (start.shape.size() > 0) here.start_shape = start.shape;
     here.start_by_unknown = start.by_unknown;
     here.rough_start = start.shape.size() == 0;
-    if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - wall()) <= 0) break;
+    if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - watch.seconds()) <= 0)
+      break;
     last = (options.full_space ? infer_full_space : infer)(model, target, prior, tongue.workspace,
                                                            here);
     iterations += last.iterations;
@@ -117,7 +115,7 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     if (until_explained && last.verdict == Verdict::explained) break;
   }
   Answer best = found.empty() ? last : weighed(std::move(found));
-  best.wall_s = wall(), best.iterations = iterations;
+  best.wall_s = watch.seconds(), best.iterations = iterations;
   best.factorizations = factorizations, best.forward_solves = solves;
   return best;
 }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "forward/base/elapsed.hpp"
 #include "inverse/sequence/sequence_problem.hpp"
 #include "inverse/shape/summary.hpp"
 
@@ -170,7 +171,7 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
   const bool symmetric = std::all_of(frames.begin(), frames.end(), [&](const SequenceFrame& f) {
     return fits_half_tongue(f.target, prior, how.infer);
   });
-  const auto started = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto n = Eigen::Index(unknowns_of(model, prior, *how.infer.bilateral).size());
   auto groups = groups_of(frames.size(), o.threads);
   std::vector<Answer> answers(frames.size());
@@ -217,8 +218,7 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
       descend(problem, start.cwiseMax(problem.lower()).cwiseMin(problem.upper()), descent);
   std::vector<Answer> smooth(kept.size());
   if (r.converged) summarise(joint, problem, r.u, smooth);
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  const double seconds = watch.seconds();
   for (size_t j = 0; j < kept.size(); ++j) {
     Answer& a = smooth[j];
     const Objective& objective = joint[j]->objective;

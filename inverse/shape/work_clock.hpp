@@ -1,6 +1,5 @@
 #pragma once
-#include <chrono>
-
+#include "forward/base/elapsed.hpp"
 #include "inverse/shape/infer.hpp"
 
 namespace genio {
@@ -11,9 +10,7 @@ class WorkClock {
  public:
   explicit WorkClock(const InferOptions& options) : options_(options) {}
 
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  }
+  double seconds() const { return watch_.seconds(); }
   bool stopped() {
     if (reason_ != InferStatus::converged) return true;
     if (options_.cancelled && options_.cancelled()) reason_ = InferStatus::cancelled;
@@ -26,7 +23,7 @@ class WorkClock {
 
  private:
   const InferOptions& options_;
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
   InferStatus reason_ = InferStatus::converged;
 };
 

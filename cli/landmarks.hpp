@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "forward/model/model.hpp"
+
+namespace genio::cli {
+
+/// How far tip, dorsum or root has moved from rest [mm].
+struct LandmarkShift {
+  std::string name;
+  Vec3 mm;
+};
+
+std::vector<LandmarkShift> landmark_shifts(const Model& model, const Positions& x);
+
+void print_landmarks(const std::vector<LandmarkShift>& landmarks);
+
+}  // namespace genio::cli

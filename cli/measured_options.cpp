@@ -1,0 +1,40 @@
+#include "cli/measured_options.hpp"
+
+#include <fmt/format.h>
+
+#include "inverse/recording/formats/format_list.hpp"
+
+namespace genio::cli {
+namespace {
+
+/// "ema 0.5, surface 1, ...": what is assumed of each format [mm].
+std::string usual_noises() {
+  std::string list;
+  for (const ContourFormat& format : contour_formats())
+    list += fmt::format("{}{} {:g}", list.empty() ? "" : ", ", format.traits.name,
+                        1e3 * format.traits.noise);
+  return list;
+}
+
+}  // namespace
+
+void add_measured_options(Options& options, MeasuredOptions& o) {
+  options.add("--target", o.target, "Contour file");
+  options.add("--format", o.read.format, format_choices());
+  options.add("--units", o.read.units, "mm, cm, m, um or px, where the file does not say");
+  options.add("--mm-per-px", o.read.mm_per_px, "Size of a pixel", {.positive = true});
+  options.add("--facing", o.read.facing, "Where the face looks in the file: left or right");
+  options.add("--y-grows", o.read.up, "up, or down as in images");
+  options.add("--sensors", o.sensors, "EMA: what each is stuck to, 3=dorsum,5=tip",
+              {.separator = ','});
+  options.add("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say",
+              {.positive = true});
+  options.add("--palate", o.palate, "Palate trace of the same session");
+  options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there");
+  options.flag("--registered", o.registered, "The file is in the model's frame already");
+  options.add("--frames", o.frames, "A-B, counted from 1");
+  options.add("--noise-mm", o.noise_mm,
+              fmt::format("Measurement noise (by the format: {})", usual_noises()));
+}
+
+}  // namespace genio::cli

@@ -1,0 +1,11 @@
+#pragma once
+#include "cli/options.hpp"
+#include "runs/measured.hpp"
+
+namespace genio::cli {
+
+/// Declares --target, --frames, --palate, --noise-mm, and what files do not say: --format, --units,
+/// --mm-per-px, --facing, --y-grows, --sensors, --palate-sensor, --rate-hz, --registered.
+void add_measured_options(Options& options, MeasuredOptions& o);
+
+}  // namespace genio::cli

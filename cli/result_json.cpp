@@ -1,0 +1,72 @@
+#include "cli/result_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace genio::cli {
+namespace {
+
+using nlohmann::json;
+
+void add_shape(json& j, const StaticsResult::Shape& shape) {
+  j["volume_change_percent"] = shape.volume_change_percent;
+  j["max_penetration_mm"] = shape.max_penetration_mm;
+  j["energy_J"] = shape.energy_J;
+  for (const LandmarkShift& l : shape.landmarks) {
+    json& shift = j["landmarks"][l.name];
+    shift["dx_mm"] = l.mm[0], shift["dy_mm"] = l.mm[1], shift["dz_mm"] = l.mm[2];
+  }
+}
+
+}  // namespace
+
+std::string info_json(const Model& m, double smallest_corner_jacobian_ratio) {
+  json j;
+  j["name"] = m.name;
+  j["nodes"] = m.mesh.nodes.size(), j["elements"] = m.mesh.elements.size();
+  j["volume_cm3"] = 1e6 * mesh_volume(m.mesh, m.rest);
+  j["min_corner_jacobian_ratio"] = smallest_corner_jacobian_ratio;
+  for (const auto& muscle : m.muscles) j["muscles"][muscle.name]["max_force_N"] = muscle.max_force;
+  for (const auto& p : m.parameters) {
+    json& parameter = j["effects"][p.name.effect][p.name.key];
+    parameter["value"] = p.info.value, parameter["unit"] = p.info.unit;
+    parameter["lower"] = p.info.lower, parameter["upper"] = p.info.upper;
+  }
+  return j.dump();
+}
+
+std::string statics_json(const StaticsResult& r) {
+  json j;
+  j["status"] = r.shape ? "converged" : "failed", j["message"] = r.message;
+  j["newton_iterations"] = r.newton_iterations, j["factorizations"] = r.factorizations;
+  j["wall_s"] = r.wall_s;
+  if (r.shape) add_shape(j, *r.shape);
+  return j.dump();
+}
+
+std::string motion_json(const MotionResult& r) {
+  json j;
+  j["status"] = r.end ? "converged" : "failed", j["message"] = r.message;
+  j["steps"] = r.steps, j["rejected_steps"] = r.rejected_steps;
+  j["simulated_s"] = r.simulated_s;
+  j["newton_iterations"] = r.newton_iterations, j["factorizations"] = r.factorizations;
+  j["wall_s"] = r.wall_s;
+  j["realtime_factor"] = r.simulated_s > 0 ? r.wall_s / r.simulated_s : 0;
+  if (r.end) {
+    add_shape(j, r.end->shape);
+    j["rise_time_s"] = r.end->rise_time_s;
+    j["kinetic_J"] = r.end->kinetic_J, j["dissipated_J"] = r.end->dissipated_J;
+    j["work_J"] = r.end->work_J;
+  }
+  return j.dump();
+}
+
+std::string status_json(const server_status_t& s, int indent) {
+  json j;
+  j["version"] = s.version, j["model"] = s.model;
+  j["queued"] = s.queued, j["running"] = s.running;
+  j["received"] = s.received, j["replied"] = s.replied, j["refused"] = s.refused;
+  j["uptime_s"] = s.uptime_s;
+  return j.dump(indent);
+}
+
+}  // namespace genio::cli

@@ -1,0 +1,47 @@
+#pragma once
+// What subcommands print for programs, each one JSON object.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/landmarks.hpp"
+#include "forward/model/model.hpp"
+#include "genio/server_status_t.hpp"
+
+namespace genio::cli {
+
+/// What `genio forward` says of an equilibrium. Without a shape, `message` says why.
+struct StaticsResult {
+  struct Shape {
+    double volume_change_percent, max_penetration_mm, energy_J;
+    std::vector<LandmarkShift> landmarks;
+  };
+  std::string message;
+  int newton_iterations, factorizations;
+  double wall_s;
+  std::optional<Shape> shape;
+};
+
+/// What `genio forward --dynamic` says of a motion. Without an end, `message` says why.
+struct MotionResult {
+  struct End {
+    double rise_time_s;
+    StaticsResult::Shape shape;  ///< its energy is the potential
+    double kinetic_J, dissipated_J, work_J;
+  };
+  std::string message;
+  int steps, rejected_steps;
+  double simulated_s;
+  int newton_iterations, factorizations;
+  double wall_s;
+  std::optional<End> end;
+};
+
+std::string info_json(const Model& model, double smallest_corner_jacobian_ratio);
+std::string statics_json(const StaticsResult& result);
+std::string motion_json(const MotionResult& result);
+/// `indent` -1: on one line.
+std::string status_json(const server_status_t& status, int indent);
+
+}  // namespace genio::cli

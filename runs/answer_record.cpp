@@ -1,0 +1,96 @@
+#include "runs/answer_record.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace genio {
+namespace {
+
+nlohmann::json to_json(const AnswerView& v, int frame) {
+  nlohmann::json j;
+  j["frame"] = frame;
+  j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
+  for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation", "information_bits",
+                          "bound_multipliers", "estimated"})
+    j[key] = nlohmann::json::object();
+  for (const auto& c : v.muscles) {
+    j["forces_N"][c.name] = c.best;
+    j["sd_N"][c.name] = c.sd;
+    j["interval90_N"][c.name] = {c.low, c.high};
+    j["activation"][c.name] = c.best / c.maximum;
+    j["information_bits"][c.name] = c.information_bits;
+    if (c.multiplier > 0) j["bound_multipliers"][c.name] = c.multiplier;
+  }
+  for (const auto& c : v.others)
+    j["estimated"][c.name] = {
+        {"value", c.best}, {"unit", c.unit}, {"sd", c.sd}, {"interval90", {c.low, c.high}}};
+  j["rms_mm"] = v.rms_mm, j["max_mm"] = v.max_mm, j["chi2_per_dof"] = v.chi2_per_dof;
+  j["unidentified"] = v.unidentified;
+  j["trade_offs"] = nlohmann::json::array();
+  for (const TradeOff& trade : v.trade_offs) {
+    nlohmann::json one;
+    for (const Share& share : trade) one[share.name] = share.amount;
+    j["trade_offs"].push_back(std::move(one));
+  }
+  j["weight"] = v.weight;
+  j["alternatives"] = nlohmann::json::array();
+  for (const Alternative& other : v.alternatives) {
+    nlohmann::json one = {{"weight", other.weight}, {"rms_mm", 1e3 * other.rms}};
+    for (const auto& c : other.muscles) one["forces_N"][c.name] = c.best;
+    j["alternatives"].push_back(std::move(one));
+  }
+  j["outliers"] = v.outliers;
+  j["ipopt_iterations"] = v.iterations, j["factorizations"] = v.factorizations;
+  j["wall_s"] = v.wall_s;
+  return j;
+}
+
+/// NaN where there is no such number: JSON has none for what is not finite.
+double number(const nlohmann::json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_number() ? it->get<double>() : std::nan("");
+}
+
+/// The numbers among the members of an object.
+std::map<std::string, double> numbers(const nlohmann::json& answer, const char* object) {
+  std::map<std::string, double> result;
+  if (const auto it = answer.find(object); it != answer.end() && it->is_object())
+    for (const auto& [name, value] : it->items()) result[name] = number(*it, name.c_str());
+  return result;
+}
+
+std::map<std::string, double> estimated_values(const nlohmann::json& answer) {
+  std::map<std::string, double> result;
+  if (const auto it = answer.find("estimated"); it != answer.end() && it->is_object())
+    for (const auto& [name, estimate] : it->items()) result[name] = number(estimate, "value");
+  return result;
+}
+
+std::string word(const nlohmann::json& answer, const char* key) {
+  const auto it = answer.find(key);
+  return it != answer.end() && it->is_string() ? it->get<std::string>() : "none";
+}
+
+}  // namespace
+
+std::string answer_json(const AnswerView& view, int frame, int indent) {
+  return to_json(view, frame).dump(indent);
+}
+
+std::optional<AnswerRecord> read_record(const std::string& line) {
+  const auto answer = nlohmann::json::parse(line, nullptr, false);
+  if (!answer.is_object() || !answer.contains("frame") || !answer["frame"].is_number_integer())
+    return std::nullopt;
+  AnswerRecord r;
+  r.frame = answer["frame"].get<int>();
+  r.line = line;
+  r.status = word(answer, "status"), r.verdict = word(answer, "verdict");
+  r.rms_mm = number(answer, "rms_mm"), r.max_mm = number(answer, "max_mm");
+  r.chi2_per_dof = number(answer, "chi2_per_dof"), r.wall_s = number(answer, "wall_s");
+  r.forces_N = numbers(answer, "forces_N"), r.sd_N = numbers(answer, "sd_N");
+  r.activation = numbers(answer, "activation");
+  r.estimated = estimated_values(answer);
+  return r;
+}
+
+}  // namespace genio

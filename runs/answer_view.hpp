@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "inverse/shape/infer.hpp"
+
+namespace genio {
+
+/// What is shown and kept of an answer; filled from an Answer or from a reply over LCM.
+struct AnswerView {
+  std::string title, status, message, verdict;
+  std::vector<Estimate> muscles;
+  std::vector<Estimate> others;  ///< parameters and head pose
+  std::vector<std::vector<std::string>> unidentified;
+  std::vector<TradeOff> trade_offs;  ///< of each unidentified group
+  double weight = 1;
+  std::vector<Alternative> alternatives;
+  int outliers = 0;
+  double rms_mm = 0, max_mm = 0, chi2_per_dof = 0, wall_s = 0;
+  int iterations = 0, factorizations = 0;
+  std::vector<Vec2> measured, predicted;  ///< midsagittal, (x, z) [m]
+};
+
+AnswerView view_of(const Model& model, const Target& target, const Answer& answer,
+                   const std::string& title);
+
+}  // namespace genio

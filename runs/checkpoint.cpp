@@ -1,0 +1,35 @@
+#include "runs/checkpoint.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "forward/base/text_file.hpp"
+
+namespace genio {
+
+Checkpoint::Checkpoint(const std::string& folder, bool resume)
+    : path_(folder.empty() ? "" : folder + "/checkpoint.json") {
+  if (!resume || path_.empty()) return;
+  std::ifstream in(path_);
+  if (!in) return;  // interrupted before there was anything to keep
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  try {
+    for (const auto& z : json.at("unknowns")) {
+      const auto values = z.get<std::vector<double>>();
+      known_.push_back(Eigen::Map<const Vector>(values.data(), Eigen::Index(values.size())));
+    }
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(path_ +
+                     ": is damaged; expected {\"unknowns\": [[number, ...], ...]}. Remove it "
+                     "to start again");
+  }
+}
+
+void Checkpoint::keep(const std::vector<Vector>& unknowns) const {
+  if (path_.empty()) return;
+  auto json = nlohmann::json::array();
+  for (const Vector& z : unknowns) json.push_back(std::vector<double>(z.begin(), z.end()));
+  replace_text(path_, nlohmann::json{{"unknowns", json}}.dump() + "\n");
+}
+
+}  // namespace genio

@@ -1,0 +1,25 @@
+#include "runs/line_log.hpp"
+
+#include "forward/base/text_file.hpp"
+#include "forward/base/types.hpp"
+
+namespace genio {
+
+LineLog::LineLog(const std::string& path,
+                 const std::function<bool(const std::string& line)>& take_up)
+    : path_(path) {
+  std::string whole;
+  if (std::ifstream in(path_); in)
+    for (std::string line; std::getline(in, line);)
+      if (take_up(line)) whole += line + "\n";
+  replace_text(path_, whole);  // a line without its end would swallow the next one
+  out_.open(path_, std::ios::app);
+  if (!out_) throw InputError(path_ + ": cannot be written");
+}
+
+void LineLog::add(const std::string& line) {
+  out_ << line << '\n' << std::flush;
+  if (!out_) throw InputError(path_ + ": cannot be written (disk full?)");
+}
+
+}  // namespace genio

@@ -1,0 +1,100 @@
+#include "runs/workers.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+namespace genio {
+namespace {
+
+struct Worker {
+  pid_t process;
+  int pipe;
+  std::string pending = {};  // the beginning of a result
+};
+
+/// A result goes through the pipe behind the number of its bytes.
+using Length = uint64_t;
+
+void write_all(int pipe, const std::string& text) {
+  for (size_t done = 0; done < text.size();) {
+    const ssize_t n = write(pipe, text.data() + done, text.size() - done);
+    if (n < 0) _exit(1);  // nobody collects any more
+    done += size_t(n);
+  }
+}
+
+Worker start(int k, const std::function<void(int, const Send&)>& work) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe for a worker process");
+  const pid_t process = fork();
+  if (process < 0) throw std::runtime_error("no worker process can be started");
+  if (process > 0) {
+    close(ends[1]);
+    return {process, ends[0]};
+  }
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  close(ends[0]);
+  try {
+    work(k, [&](const std::string& result) {
+      const Length length = result.size();
+      write_all(ends[1], std::string(reinterpret_cast<const char*>(&length), sizeof length));
+      write_all(ends[1], result);
+    });
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "worker {}: {}\n", k + 1, e.what());
+    _exit(1);
+  }
+  _exit(0);
+}
+
+/// False when the worker has ended.
+bool receive(Worker& worker, const Send& collect) {
+  char buffer[65536];
+  const ssize_t n = read(worker.pipe, buffer, sizeof buffer);
+  if (n <= 0) return false;
+  std::string& pending = worker.pending;
+  pending.append(buffer, size_t(n));
+  size_t first = 0;
+  for (Length length; pending.size() - first >= sizeof length; first += sizeof length + length) {
+    std::memcpy(&length, pending.data() + first, sizeof length);
+    if (pending.size() - first - sizeof length < length) break;
+    collect(pending.substr(first + sizeof length, length));
+  }
+  pending.erase(0, first);
+  return true;
+}
+
+}  // namespace
+
+void in_processes(int count, const std::function<void(int, const Send&)>& work,
+                  const Send& collect) {
+  if (count <= 1) return work(0, collect);
+  std::vector<Worker> workers;
+  for (int k = 0; k < count; ++k) workers.push_back(start(k, work));
+  bool died = false;
+  while (!workers.empty()) {
+    std::vector<pollfd> waiting;
+    for (const Worker& w : workers) waiting.push_back({w.pipe, POLLIN, 0});
+    if (poll(waiting.data(), waiting.size(), -1) < 0) continue;  // a signal
+    for (size_t i = waiting.size(); i-- > 0;) {
+      if (waiting[i].revents == 0 || receive(workers[i], collect)) continue;
+      int status = 0;
+      close(workers[i].pipe);
+      waitpid(workers[i].process, &status, 0);
+      died |= !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+      workers.erase(workers.begin() + long(i));
+    }
+  }
+  if (died) throw std::runtime_error("a worker process ended early; --resume takes up the rest");
+}
+
+}  // namespace genio

@@ -1,0 +1,125 @@
+#include "runs/result_log.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "forward/base/text_file.hpp"
+#include "forward/base/types.hpp"
+#include "runs/frames.hpp"
+#include "tests/runs/temporary_folder.hpp"
+
+namespace genio {
+namespace {
+
+class ResultLogs : public testing::Test {
+ protected:
+  static AnswerRecord answer(int frame) {
+    AnswerView view;
+    view.status = "converged", view.verdict = "explained";
+    view.muscles = {{.name = "GGP", .best = 0.1 * frame, .maximum = 30}};
+    return read_record(answer_json(view, frame)).value();
+  }
+  static std::vector<Frame> frames(int count) {
+    std::vector<Frame> result(static_cast<size_t>(count));
+    for (int k = 0; k < count; ++k) result[size_t(k)].contour.number = k + 1;
+    return result;
+  }
+  std::string text(const std::string& name) const {
+    std::stringstream all;
+    all << std::ifstream(folder.path() + "/" + name).rdbuf();
+    return all.str();
+  }
+  test::TemporaryFolder folder;
+  const Question asked = {{"model", "m"}, {"starts", 3}, {"robust", false}, {"start_s", {}}};
+};
+
+TEST_F(ResultLogs, ResumingAnswersWhatIsMissingAndOnlyThat) {
+  {
+    ResultLog log(folder.path(), asked, false);
+    for (int frame : {1, 2, 4}) log.add(answer(frame));
+  }
+  const ResultLog log(folder.path(), asked, true);
+  const auto open = open_frames(frames(5), log.known());
+  ASSERT_EQ(open.size(), 2u);
+  EXPECT_EQ(open[0].contour.number, 3);
+  EXPECT_EQ(open[1].contour.number, 5);
+}
+
+TEST_F(ResultLogs, AnAnswerCutOffInMidLineIsGivenAgain) {
+  {
+    ResultLog log(folder.path(), asked, false);
+    for (int frame : {1, 2}) log.add(answer(frame));
+  }
+  const std::string whole = text("results.jsonl");
+  write_text(folder.path() + "/results.jsonl", whole.substr(0, whole.size() - 9));
+  {
+    ResultLog log(folder.path(), asked, true);
+    EXPECT_EQ(log.known().size(), 1u);
+    log.add(answer(2));
+  }
+  EXPECT_EQ(text("results.jsonl"), whole);
+}
+
+TEST_F(ResultLogs, KnownAnswersStayAsTheyWereWritten) {
+  {
+    ResultLog log(folder.path(), asked, false);
+    log.add(answer(1));
+  }
+  const std::string before = text("results.jsonl");
+  const ResultLog log(folder.path(), asked, true);
+  EXPECT_EQ(text("results.jsonl"), before);
+  EXPECT_EQ(log.known().at(1).line + "\n", before);
+}
+
+TEST_F(ResultLogs, ResultsAreNotOverwrittenUnasked) {
+  { ResultLog log(folder.path(), asked, false); }
+  EXPECT_THROW(ResultLog(folder.path(), asked, false), InputError);
+}
+
+TEST_F(ResultLogs, AnotherQuestionIsRefusedByItsName) {
+  { ResultLog log(folder.path(), asked, false); }
+  Question other = asked;
+  other[1].second = 4;
+  try {
+    ResultLog log(folder.path(), other, true);
+    FAIL() << "another question was taken up";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("was made with starts = 3, not 4"), std::string::npos)
+        << e.what();
+  }
+}
+
+TEST_F(ResultLogs, ADamagedQuestionIsAnErrorOfTheInput) {
+  { ResultLog log(folder.path(), asked, false); }
+  write_text(folder.path() + "/run.json", "[1");
+  EXPECT_THROW(ResultLog(folder.path(), asked, true), InputError);
+}
+
+TEST(AnswerRecords, ARecordHoldsTheNumbersOfItsAnswer) {
+  AnswerView view;
+  view.status = "converged", view.verdict = "mismatch";
+  view.rms_mm = 0.1 + 0.2, view.max_mm = 2, view.chi2_per_dof = 1e-7, view.wall_s = 3;
+  view.muscles = {{.name = "HG", .best = 1.0 / 3, .maximum = 7, .sd = 0.25}};
+  view.others = {{.name = "gravity.z", .best = -9.81, .unit = "m/s^2"}};
+  const auto r = read_record(answer_json(view, 7));
+  ASSERT_TRUE(r);
+  EXPECT_EQ(r->frame, 7);
+  EXPECT_TRUE(r->converged());
+  EXPECT_EQ(r->verdict, "mismatch");
+  EXPECT_EQ(r->rms_mm, view.rms_mm);
+  EXPECT_EQ(r->chi2_per_dof, view.chi2_per_dof);
+  EXPECT_EQ(r->forces_N.at("HG"), 1.0 / 3);
+  EXPECT_EQ(r->sd_N.at("HG"), 0.25);
+  EXPECT_EQ(r->activation.at("HG"), 1.0 / 3 / 7);
+  EXPECT_EQ(r->estimated.at("gravity.z"), -9.81);
+}
+
+TEST(AnswerRecords, WhatIsNoAnswerIsNone) {
+  for (const char* line : {"", "{", "[1]", "{\"case\":1}", "{\"frame\":\"x\"}", "{\"frame\":1"})
+    EXPECT_FALSE(read_record(line)) << line;
+}
+
+}  // namespace
+}  // namespace genio

@@ -1,0 +1,85 @@
+// The layouts by which messages are scanned are those of messages/*.lcm.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+
+#include "server/wire.hpp"
+
+namespace genio {
+namespace {
+
+struct Field {
+  std::string type, name, count;  // count: the field that holds an array's length; empty: no array
+};
+
+std::vector<Field> fields_of(const std::filesystem::path& file) {
+  static const std::regex pattern(R"(^\s*(\w+)\s+(\w+)\s*(?:\[\s*(\w+)\s*\])?\s*;.*)");
+  std::vector<Field> fields;
+  std::ifstream in(file);
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    inside |= line.starts_with("{");
+    if (std::smatch m; inside && std::regex_match(line, m, pattern))
+      fields.push_back({m[1], m[2], m[3]});
+  }
+  return fields;
+}
+
+/// As WireLayout writes it. Fails the test where it cannot: a type that it has no letter for, or an
+/// array whose length is not the count before it.
+std::string layout_of(const std::vector<Field>& fields) {
+  const std::map<std::string, char> scalars = {
+      {"int64_t", 'l'}, {"int32_t", 'i'}, {"int8_t", 'b'}, {"double", 'd'}, {"string", 's'}};
+  const std::map<std::string, char> arrays = {{"double", 'D'}, {"string", 'S'}};
+  const auto counts = [&](const std::string& name) {
+    return std::any_of(fields.begin(), fields.end(),
+                       [&](const Field& f) { return f.count == name; });
+  };
+  std::string layout, last_count;
+  for (const Field& f : fields) {
+    const auto& letters = f.count.empty() ? scalars : arrays;
+    const auto it = letters.find(f.type);
+    if (it == letters.end()) {
+      ADD_FAILURE() << f.name << ": a layout has no letter for " << f.type;
+      continue;
+    }
+    EXPECT_TRUE(f.count.empty() || f.count == last_count) << f.name;
+    if (counts(f.name)) last_count = f.name;
+    layout += counts(f.name) ? 'n' : it->second;
+  }
+  return layout;
+}
+
+const std::map<std::string, std::string> layouts = {
+    {"shape_request_t", WireLayout<shape_request_t>::fields},
+    {"command_reply_t", WireLayout<command_reply_t>::fields},
+    {"progress_t", WireLayout<progress_t>::fields},
+    {"cancel_t", WireLayout<cancel_t>::fields},
+    {"server_status_t", WireLayout<server_status_t>::fields}};
+
+TEST(WireLayouts, EachIsThatOfItsLcmFile) {
+  size_t files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(GENIO_SOURCE_DIR "/messages")) {
+    if (file.path().extension() != ".lcm") continue;
+    ++files;
+    const std::string type = file.path().stem().string();
+    ASSERT_TRUE(layouts.contains(type)) << type << ".lcm has no WireLayout";
+    EXPECT_EQ(layouts.at(type), layout_of(fields_of(file.path()))) << type;
+  }
+  EXPECT_EQ(files, layouts.size());
+}
+
+TEST(WireLayouts, AForgottenFieldShows) {
+  auto fields = fields_of(GENIO_SOURCE_DIR "/messages/command_reply_t.lcm");
+  ASSERT_EQ(layout_of(fields), layouts.at("command_reply_t"));
+  fields.push_back({"double", "new_field", ""});
+  EXPECT_NE(layout_of(fields), layouts.at("command_reply_t"));
+}
+
+}  // namespace
+}  // namespace genio
