@@ -17,7 +17,7 @@ const std::vector<std::string> known_columns = {
     "frame", "point",  "x_mm",      "y_mm",      "z_mm",      "sigma_mm", "kind",
     "label", "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm", "slice"};
 
-RawContours read(const std::string& path, const ReadOptions&) {
+RawContours read_csv(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
   std::string line;
   if (!lines.next(line)) lines.fail("the file is empty; expected a header line");
@@ -85,7 +85,7 @@ RawContours read(const std::string& path, const ReadOptions&) {
   return {std::move(file), {}};
 }
 
-bool known_by_line(const FileStart& start) { return start.line.find(',') != std::string::npos; }
+bool is_csv_line(const FileStart& start) { return start.line.find(',') != std::string::npos; }
 
 }  // namespace
 
@@ -93,8 +93,8 @@ ContourFormat csv_format() {
   return {.traits = {.name = "csv"},
           .about = "the table of the README, in the model's frame",
           .known_by_bytes = {},
-          .known_by_line = known_by_line,
-          .read = read,
+          .known_by_line = is_csv_line,
+          .read = read_csv,
           .example = {.name = "shape.csv",
                       .text = "frame,point,x_mm,z_mm\n1,1,60,95\n1,2,90,115\n",
                       .options = {}}};
