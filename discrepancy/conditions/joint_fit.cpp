@@ -130,9 +130,11 @@ Vector spikes_at_rest(const ConditionSet& set, const JointFit& f,
   return spikes;
 }
 
-/// `all`: of the unknowns `open`.
-void summarise_shared(JointFit& f, const Model& model, const BoxIntegral& all,
-                      const std::vector<Eigen::Index>& open) {
+/// What is known of the shared unknowns after the fit. `all`: of the unknowns `open`.
+std::vector<SharedEstimate> shared_estimates(const JointFit& f, const Model& model,
+                                             const BoxIntegral& all,
+                                             const std::vector<Eigen::Index>& open) {
+  std::vector<SharedEstimate> result;
   const FittedCondition& c = f.conditions.front();
   for (size_t i = 0; i < c.unknowns.size(); ++i) {
     if (c.which[i] < f.own) continue;
@@ -151,8 +153,68 @@ void summarise_shared(JointFit& f, const Model& model, const BoxIntegral& all,
       for (double* v : {&e.value, &e.low, &e.high})
         *v = std::clamp(*v, model.parameters[size_t(k)].info.lower,
                         model.parameters[size_t(k)].info.upper);
-    f.shared.push_back(e);
+    result.push_back(e);
   }
+  return result;
+}
+
+/// Where the descent starts: at what is expected of the unknowns, but for those that the last fit or
+/// an inversion of a condition by itself knows better.
+Vector start_of(ConditionSet& set, JointProblem& problem, const FitOptions& options) {
+  Vector u = Vector::Zero(problem.lower().size());
+  const auto answers = options.start ? std::vector<Answer>() : each_alone(set);
+  for (size_t k = 0; k < problem.size(); ++k) {
+    auto& part = problem.part(k);
+    const Vector z = expected(part.objective.prior());
+    u(part.which) = options.start ? start_of((*options.start)[k], part.objective.unknowns(),
+                                             options.shared_start, z)
+                                  : guessed(set, k, answers[k], part, z);
+  }
+  return u.cwiseMax(problem.lower()).cwiseMin(problem.upper());
+}
+
+/// The fit with its conditions at the point it has reached. It ends, not converged, before the
+/// first one that has no derivatives there.
+JointFit with_conditions(JointFit f, const ConditionSet& set, JointProblem& problem) {
+  for (size_t k = 0; k < problem.size(); ++k) {
+    auto& part = problem.part(k);
+    const Vector z = problem.of_part(f.u, k);
+    const auto* p = part.objective.derivatives(z);
+    if (!p) {
+      f.converged = false;
+      f.message = fmt::format("{}: {}", set.condition(k).name, part.objective.last_failure());
+      return f;
+    }
+    f.conditions.push_back({part.objective.unknowns(), part.which, z, p->equilibrium.x,
+                            p->equilibrium.parameters, p->residuals, p->jacobian});
+    f.conditions.back().residuals.values = part.residuals(*p);
+  }
+  return f;
+}
+
+/// The fit with its log evidence and the estimates of what the conditions share.
+JointFit with_evidence(JointFit f, const ConditionSet& set, const SharedPrior& shared,
+                       const JointProblem& problem) {
+  const auto open = open_unknowns(f.lower, f.upper);
+  if (open.empty()) {
+    f.log_evidence = shared.log_weight - f.value;
+    return f;
+  }
+  const Matrix j = problem.whitened(f.jacobian())(Eigen::all, open);
+  const Matrix a = f.prior_rows(Eigen::all, open);
+  const Matrix h = j.transpose() * j + a.transpose() * a;
+  const Vector slope = j.transpose() * problem.whitened(f.residuals()).col(0) +
+                       a.transpose() * (f.prior_rows * f.u - f.prior_values);
+  BoxGaussian density{f.u(open), slope, h, f.lower(open), f.upper(open)};
+  for (Eigen::Index i = 0; i < slope.size(); ++i)
+    if (pressed(density, i) == 0) density.slope[i] = 0;
+  const PriorMass mass = prior_mass(f, open);
+  const Vector spikes = spikes_at_rest(set, f, open, mass);
+  const BoxIntegral all = integral(density, spikes);
+  f.log_evidence = shared.log_weight - f.value + all.log - mass.log_all -
+                   double((spikes.array() > 0).count()) * std::numbers::ln2;
+  f.shared = shared_estimates(f, set.model(0), all, open);
+  return f;
 }
 
 }  // namespace
@@ -175,63 +237,23 @@ Matrix JointFit::jacobian() const {
 
 JointFit fit(ConditionSet& set, const SharedPrior& shared, const Errors* errors,
              const FitOptions& options) {
+  JointFit f;
   if (options.start && options.start->size() != set.size()) {
-    JointFit nothing;
-    nothing.message = "nothing to start from";
-    return nothing;
+    f.message = "nothing to start from";
+    return f;
   }
   JointProblem problem(set, shared, errors, options);
-  JointFit f;
   f.lower = problem.lower(), f.upper = problem.upper(), f.own = problem.own();
-  Vector u = Vector::Zero(f.lower.size());
-  const auto answers = options.start ? std::vector<Answer>() : each_alone(set);
-  for (size_t k = 0; k < problem.size(); ++k) {
-    auto& part = problem.part(k);
-    const Vector z = expected(part.objective.prior());
-    u(part.which) = options.start ? start_of((*options.start)[k], part.objective.unknowns(),
-                                             options.shared_start, z)
-                                  : guessed(set, k, answers[k], part, z);
-  }
-  u = u.cwiseMax(f.lower).cwiseMin(f.upper);
+  const Vector start = start_of(set, problem, options);
   const DescentResult r =
-      descend(problem, u, {most_steps, options.precision, {}, options.give_up_above, roughness});
+      descend(problem, start, {most_steps, options.precision, {}, options.give_up_above, roughness});
   f.converged = r.converged, f.message = r.message, f.iterations = r.iterations;
   if (r.u.size() == 0) return f;
   f.u = r.u, f.value = r.value;
   f.prior_rows = problem.prior_rows(), f.prior_values = problem.prior_values();
-  for (size_t k = 0; k < problem.size(); ++k) {
-    auto& part = problem.part(k);
-    const Vector z = problem.of_part(f.u, k);
-    const auto* p = part.objective.derivatives(z);
-    if (!p) {
-      f.converged = false;
-      f.message = fmt::format("{}: {}", set.condition(k).name, part.objective.last_failure());
-      return f;
-    }
-    f.conditions.push_back({part.objective.unknowns(), part.which, z, p->equilibrium.x,
-                            p->equilibrium.parameters, p->residuals, p->jacobian});
-    f.conditions.back().residuals.values = part.residuals(*p);
-  }
-  const auto open = open_unknowns(f.lower, f.upper);
-  if (open.empty()) {
-    f.log_evidence = shared.log_weight - f.value;
-    return f;
-  }
-  const Matrix j = problem.whitened(f.jacobian())(Eigen::all, open);
-  const Matrix a = problem.prior_rows()(Eigen::all, open);
-  const Matrix h = j.transpose() * j + a.transpose() * a;
-  const Vector slope = j.transpose() * problem.whitened(f.residuals()).col(0) +
-                       a.transpose() * (problem.prior_rows() * f.u - problem.prior_values());
-  BoxGaussian density{f.u(open), slope, h, f.lower(open), f.upper(open)};
-  for (Eigen::Index i = 0; i < slope.size(); ++i)
-    if (pressed(density, i) == 0) density.slope[i] = 0;
-  const PriorMass mass = prior_mass(f, open);
-  const Vector spikes = spikes_at_rest(set, f, open, mass);
-  const BoxIntegral all = integral(density, spikes);
-  f.log_evidence = shared.log_weight - f.value + all.log - mass.log_all -
-                   double((spikes.array() > 0).count()) * std::numbers::ln2;
-  summarise_shared(f, set.model(0), all, open);
-  return f;
+  f = with_conditions(std::move(f), set, problem);
+  if (f.conditions.size() < set.size()) return f;
+  return with_evidence(std::move(f), set, shared, problem);
 }
 
 }  // namespace genio

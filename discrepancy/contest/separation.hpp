@@ -1,5 +1,5 @@
 #pragma once
-// Which further posture would tell two accounts of the same data apart, by simulation.
+// Which further posture would separate two models of the same data, by simulation.
 
 #include <map>
 #include <string>

@@ -30,10 +30,18 @@ double cost(const JointFit& f, const Errors& errors) {
 
 }  // namespace
 
-Errors errors_at(ConditionSet& set, const JointFit& fit, Refinement* refinement,
+CorrectionsAtFit corrections_at(const ConditionSet& set, const JointFit& fit,
+                                std::shared_ptr<const Refinement> refinement) {
+  if (!refinement) return {smoothing(set, fit), nullptr};
+  RefinedCorrections refined = refinement->corrections(set, fit);
+  return {std::move(refined.corrections),
+          std::make_shared<const Refinement>(std::move(refined.refinement))};
+}
+
+Errors errors_at(ConditionSet& set, const JointFit& fit, Corrections corrections,
                  const ErrorModel& error_model) {
   Errors e;
-  e.corrections = refinement ? refinement->corrections(set, fit) : smoothing(set, fit);
+  e.corrections = std::move(corrections);
   e.matrix = residual_covariance(set, fit, influences_of(set, fit), e.corrections, error_model);
   e.covariance.compute(e.matrix);
   return e;
