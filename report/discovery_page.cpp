@@ -39,7 +39,7 @@ std::string effects_part(const Discovery& d) {
       s += fmt::format(
           "<tr><td>{}</td><td>{:.4g}</td><td>{:.2g}</td><td>{:.4g} to {:.4g}</td>"
           "<td>{}</td></tr>\n",
-          escaped(p.name), p.value, p.sd, p.low, p.high, escaped(p.unit));
+          escaped(p.name.text()), p.value, p.sd, p.low, p.high, escaped(p.unit));
     s += "</table>\n";
   }
   if (d.effects.empty()) s += "<p>No effect is named.</p>\n";

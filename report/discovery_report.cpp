@@ -8,7 +8,7 @@ using Json = nlohmann::json;
 Json effect_json(const NamedEffect& e) {
   Json parameters = Json::object(), sd = Json::object(), interval = Json::object();
   for (const SharedEstimate& p : e.parameters) {
-    const std::string key = p.name.substr(p.name.find('.') + 1);
+    const std::string& key = p.name.key;
     parameters[key] = p.value, sd[key] = p.sd, interval[key] = {p.low, p.high};
   }
   return {{"name", e.effect}, {"where", e.where},       {"parameters", parameters},

@@ -19,8 +19,7 @@ Json found_json(const Discovery& d) {
   Json effects = Json::array(), rivals = Json::array();
   for (const NamedEffect& e : d.effects) {
     Json p = Json::object();
-    for (const SharedEstimate& s : e.parameters)
-      p[ParameterName::parse(s.name).key] = {s.value, s.low, s.high};
+    for (const SharedEstimate& s : e.parameters) p[s.name.key] = {s.value, s.low, s.high};
     effects.push_back({{"effect", e.effect},
                        {"where", e.where},
                        {"confidence", e.confidence},

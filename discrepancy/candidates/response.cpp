@@ -33,7 +33,7 @@ std::vector<FittedCondition> with_candidate(const Candidate& candidate,
   Vector step = Vector::Zero(Eigen::Index(candidate.strengths.size()));
   for (size_t i = 0; i < candidate.strengths.size(); ++i)
     for (const SharedEstimate& e : estimates)
-      if (e.name == candidate.effect + "." + candidate.strengths[i].name)
+      if (e.name == candidate.name_of(candidate.strengths[i]))
         step[Eigen::Index(i)] = candidate.strengths[i].info.off(e.value);
   return response(f, errors, signature(candidate, set, f, influences) * step);
 }
@@ -44,7 +44,7 @@ std::vector<FittedCondition> without_candidate(const Candidate& candidate, const
   Vector step = Vector::Zero(f.u.size());
   for (const FreeNumber& n : candidate.strengths)
     for (size_t i = 0; i < first.unknowns.size(); ++i)
-      if (first.unknowns[i].name == candidate.effect + "." + n.name)
+      if (first.unknowns[i].name == candidate.name_of(n).text())
         step[first.which[i]] = first.unknowns[i].z_of(n.info.absent) - first.z[Eigen::Index(i)];
   return response(f, errors, f.jacobian() * step);
 }

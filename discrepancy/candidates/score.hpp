@@ -12,6 +12,8 @@ struct Candidate {
   std::optional<Hypothesis> hypothesis;  ///< unset: head_pose
   std::vector<FreeNumber> strengths;
   std::string label() const { return genio::label(effect, where); }
+  /// The name of one of its numbers as a parameter.
+  ParameterName name_of(const FreeNumber& number) const { return {effect, number.name}; }
   /// True where it is there or not, see Hypothesis::is_switch().
   bool is_switch() const { return hypothesis && hypothesis->is_switch(); }
 };

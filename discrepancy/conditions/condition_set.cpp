@@ -18,7 +18,7 @@ std::vector<size_t> where(const Observations& o, bool heldout) {
 
 }  // namespace
 
-ModelDescription with_effects(ModelDescription d, const std::map<std::string, double>& effects) {
+ModelDescription with_effects(ModelDescription d, const std::map<ParameterName, double>& effects) {
   for (const auto& [name, value] : effects) d = with_parameter(std::move(d), name, value);
   return d;
 }
@@ -31,7 +31,7 @@ ConditionSet::ConditionSet(ModelDescription description, const Observations& obs
     : description_(std::move(description)),
       observations_(observations),
       members_(std::move(members)) {
-  std::vector<std::map<std::string, double>> known;
+  std::vector<std::map<ParameterName, double>> known;
   for (size_t k : members_) {
     const auto& effects = observations_.conditions[k].effects;
     const auto at = std::find(known.begin(), known.end(), effects);

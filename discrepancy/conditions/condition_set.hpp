@@ -45,7 +45,7 @@ class ConditionSet {
 
 /// A description under known effects.
 ModelDescription with_effects(ModelDescription description,
-                              const std::map<std::string, double>& effects);
+                              const std::map<ParameterName, double>& effects);
 
 /// Indices of the conditions to fit, or of those held out.
 std::vector<size_t> fitted_conditions(const Observations& observations);

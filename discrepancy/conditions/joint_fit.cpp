@@ -139,7 +139,10 @@ std::vector<SharedEstimate> shared_estimates(const JointFit& f, const Model& mod
   for (size_t i = 0; i < c.unknowns.size(); ++i) {
     if (c.which[i] < f.own) continue;
     const Unknown& unknown = c.unknowns[i];
-    SharedEstimate e{unknown.name, unknown.unit, unknown.value(c.z[Eigen::Index(i)])};
+    SharedEstimate e{.name = ParameterName::parse(unknown.name),
+                     .unit = unknown.unit,
+                     .value = unknown.value(c.z[Eigen::Index(i)]),
+                     .kind = unknown.kind};
     e.low = e.high = e.value;
     if (const auto at = std::find(open.begin(), open.end(), c.which[i]); at != open.end()) {
       const Eigen::Index k = at - open.begin();
@@ -158,8 +161,8 @@ std::vector<SharedEstimate> shared_estimates(const JointFit& f, const Model& mod
   return result;
 }
 
-/// Where the descent starts: at what is expected of the unknowns, but for those that the last fit or
-/// an inversion of a condition by itself knows better.
+/// Where the descent starts: at what is expected of the unknowns, but for those that the last fit
+/// or an inversion of a condition by itself knows better.
 Vector start_of(ConditionSet& set, JointProblem& problem, const FitOptions& options) {
   Vector u = Vector::Zero(problem.lower().size());
   const auto answers = options.start ? std::vector<Answer>() : each_alone(set);
@@ -245,8 +248,8 @@ JointFit fit(ConditionSet& set, const SharedPrior& shared, const Errors* errors,
   JointProblem problem(set, shared, errors, options);
   f.lower = problem.lower(), f.upper = problem.upper(), f.own = problem.own();
   const Vector start = start_of(set, problem, options);
-  const DescentResult r =
-      descend(problem, start, {most_steps, options.precision, {}, options.give_up_above, roughness});
+  const DescentResult r = descend(
+      problem, start, {most_steps, options.precision, {}, options.give_up_above, roughness});
   f.converged = r.converged, f.message = r.message, f.iterations = r.iterations;
   if (r.u.size() == 0) return f;
   f.u = r.u, f.value = r.value;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "discrepancy/conditions/condition_set.hpp"
+#include "forward/base/parameter_name.hpp"
 #include "inverse/target/comparison.hpp"
 
 namespace genio {
@@ -34,8 +35,10 @@ struct FittedCondition {
 
 /// A shared parameter's estimate in its own unit.
 struct SharedEstimate {
-  std::string name, unit;
+  ParameterName name;
+  std::string unit;
   double value = 0, sd = 0, low = 0, high = 0;  ///< 90 % interval
+  Unknown::Kind kind = Unknown::Kind::parameter;
 };
 
 struct JointFit {

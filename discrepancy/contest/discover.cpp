@@ -98,12 +98,11 @@ Search with_winner_added(Search s, const SelectionRound& r, const DiscoverOption
   const Candidate& winner = r.candidate_of(*r.winner).candidate;
   s.effects.push_back(winner);
   s.confidence.push_back(confidence_in_winner(r));
-  for (AlternativeEffect& a : alternatives_of(r))
-    s.discovery.alternatives.push_back(std::move(a));
+  for (AlternativeEffect& a : alternatives_of(r)) s.discovery.alternatives.push_back(std::move(a));
   options.report_progress(
       fmt::format("  {}: probability {:.3f}", winner.label(), s.confidence.back()));
-  s.null_model = with_winner(r.null_model, r.contenders[*r.winner].model, s.effects,
-                             options.error_model);
+  s.null_model =
+      with_winner(r.null_model, r.contenders[*r.winner].model, s.effects, options.error_model);
   return s;
 }
 

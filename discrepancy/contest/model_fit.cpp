@@ -15,22 +15,21 @@ ModelFit with_residual_test(ModelFit m, const Errors& errors) {
 PosedModel posed_model_of(const ModelFit& m) {
   PosedModel posed{with_fitted(m.description, m.fit), {}};
   for (const SharedEstimate& s : m.fit.shared) {
-    if (s.name == "head_pose.x") posed.pose.shift[0] = s.value;
-    if (s.name == "head_pose.z") posed.pose.shift[1] = s.value;
-    if (s.name == "head_pose.turn") posed.pose.turn = s.value;
+    if (s.kind != Unknown::Kind::pose) continue;
+    if (s.name.key == "x") posed.pose.shift[0] = s.value;
+    if (s.name.key == "z") posed.pose.shift[1] = s.value;
+    if (s.name.key == "turn") posed.pose.turn = s.value;
   }
   return posed;
 }
 
 ModelDescription with_fitted(ModelDescription d, const JointFit& fit) {
   for (const SharedEstimate& e : fit.shared) {
-    const auto dot = e.name.find('.');
-    const std::string effect = e.name.substr(0, dot), key = e.name.substr(dot + 1);
-    if (!d.effects.contains(effect)) continue;  // the head pose
-    auto& table = d.effects[effect];
-    if (table.contains(key)) table[key] = e.value;
+    if (e.kind == Unknown::Kind::pose) continue;
+    EffectTable& table = d.effects[e.name.effect];
+    if (table.contains(e.name.key)) table[e.name.key] = e.value;
     else
-      for (const char* side : {"_L", "_R"}) table[key + side] = e.value;
+      for (const char* side : {"_L", "_R"}) table[e.name.key + side] = e.value;
   }
   return d;
 }
@@ -47,7 +46,7 @@ ModelFit with_heldout_fit(ModelFit m, const std::vector<FittedCondition>* start,
   FitOptions options{start};
   shared.head_pose = m.shared.head_pose;
   for (const SharedEstimate& e : m.fit.shared)
-    if (m.shared.head_pose && e.name.starts_with("head_pose")) options.fixed[e.name] = e.value;
+    if (e.kind == Unknown::Kind::pose) options.fixed[e.name.text()] = e.value;
   options.shared_start = options.fixed;
   m.heldout = fit(*m.heldout_set, shared, errors.heldout.get(), options);
   return m;

@@ -17,9 +17,9 @@ struct ModelFit {
   SharedPrior shared;                 ///< of their strengths
   std::shared_ptr<ConditionSet> set;  ///< the fitted conditions
   JointFit fit;
-  double chi_square = 0, dof = 0;             ///< of the residuals
-  std::shared_ptr<ConditionSet> heldout_set;  ///< null: no conditions are held out
-  JointFit heldout;                           ///< of these, shared parameters as fitted
+  double chi_square = 0, dof = 0;                ///< of the residuals
+  std::shared_ptr<ConditionSet> heldout_set;     ///< null: no conditions are held out
+  JointFit heldout;                              ///< of these, shared parameters as fitted
   std::shared_ptr<const Refinement> refinement;  ///< under this model; null: the null model's
   std::string message;                           ///< why it could not be fitted
 

@@ -14,8 +14,7 @@ double size_of(const Candidate& c, const std::string& unit,
   double square = 0;
   for (const FreeNumber& n : c.strengths)
     for (const SharedEstimate& e : estimates)
-      if (e.name == c.effect + "." + n.name && n.info.unit == unit)
-        square += std::pow(n.info.off(e.value), 2);
+      if (e.name == c.name_of(n) && n.info.unit == unit) square += std::pow(n.info.off(e.value), 2);
   return std::sqrt(square);
 }
 
@@ -27,7 +26,7 @@ NamedEffect with_intervals(NamedEffect effect, const Candidate& c, const ErrorMo
   const auto each = [&](const std::vector<FreeNumber>& numbers, auto sd_of) {
     for (const FreeNumber& n : numbers)
       for (SharedEstimate& e : effect.parameters)
-        if (e.name == c.effect + "." + n.name) e = widened(e, n.info, sd_of(n.info));
+        if (e.name == c.name_of(n)) e = widened(e, n.info, sd_of(n.info));
   };
   each(c.strengths, [&](const ParameterInfo& info) {
     return error_model.efficacy_sd * size_of(c, info.unit, as_fitted);
@@ -62,16 +61,17 @@ std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>
   for (size_t i = 0; i < found.size(); ++i) {
     NamedEffect n{found[i].effect, found[i].where, {}, confidence[i]};
     for (const SharedEstimate& e : fit.shared) {
-      if (e.name.substr(0, e.name.find('.')) != found[i].effect) continue;
-      const std::string key = e.name.substr(e.name.find('.') + 1);
-      const bool other = found[i].effect == "weak_muscle" && key != found[i].where;
+      if (e.name.effect != found[i].effect) continue;
+      const bool other = found[i].effect == "weak_muscle" && e.name.key != found[i].where;
       if (!other) n.parameters.push_back(e);
     }
     n = with_intervals(std::move(n), found[i], error_model);
     if (found[i].is_switch())
       for (const FreeNumber& s : found[i].strengths)
-        n.parameters.push_back({found[i].effect + "." + s.name, s.info.unit,
-                                s.info.absent + s.info.typical, 0, 0, s.info.upper});
+        n.parameters.push_back({.name = found[i].name_of(s),
+                                .unit = s.info.unit,
+                                .value = s.info.absent + s.info.typical,
+                                .high = s.info.upper});
     result.push_back(std::move(n));
   }
   return result;

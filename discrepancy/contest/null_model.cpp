@@ -32,9 +32,9 @@ FirstGuess first_guess(const ModelDescription& description, const Observations& 
 /// The null model with its fitted conditions settled, from `start` on.
 NullModel with_fitted_settled(NullModel null_model, JointFit start, const ErrorModel& error_model) {
   ModelFit& m = null_model.model;
-  SettledFit s = settled(*m.set, m.shared,
-                         {std::move(start), null_model.errors.fitted, null_model.refinement},
-                         error_model);
+  SettledFit s =
+      settled(*m.set, m.shared, {std::move(start), null_model.errors.fitted, null_model.refinement},
+              error_model);
   m.fit = std::move(s.fit);
   m = with_residual_test(std::move(m), *s.errors);
   null_model.errors.fitted = std::move(s.errors);
@@ -90,8 +90,8 @@ NullModel fitted_null_model(const ModelDescription& description, const Observati
   if (heldout.empty()) return null_model;
   m.heldout_set = std::make_shared<ConditionSet>(description, observations, heldout);
   start = fit(*m.heldout_set, {}, nullptr, {.start = &guess.heldout, .precision = rough_precision});
-  SettledFit s = settled(*m.heldout_set, {}, {std::move(start), nullptr, null_model.refinement},
-                         error_model);
+  SettledFit s =
+      settled(*m.heldout_set, {}, {std::move(start), nullptr, null_model.refinement}, error_model);
   m.heldout = std::move(s.fit), null_model.errors.heldout = std::move(s.errors);
   null_model.refinement = std::move(s.refinement);
   return null_model;

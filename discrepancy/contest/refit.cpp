@@ -32,7 +32,7 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
     double off = std::clamp(n.info.off(s.estimate[Eigen::Index(i)]), -farthest * n.info.typical,
                             farthest * n.info.typical);
     if (std::abs(off) < least) off = n.info.absent < n.info.upper ? least : -least;
-    result[c.effect + "." + n.name] = std::clamp(n.info.at(off), n.info.lower, n.info.upper);
+    result[c.name_of(n).text()] = std::clamp(n.info.at(off), n.info.lower, n.info.upper);
   }
   return result;
 }
@@ -45,7 +45,7 @@ SharedPrior believed(SharedPrior shared, const Candidate& c, double scale) {
   } else {
     const auto add = [&](const std::vector<FreeNumber>& numbers, double by) {
       for (const FreeNumber& n : numbers)
-        shared.parameters[c.effect + "." + n.name] = {
+        shared.parameters[c.name_of(n).text()] = {
             {n.info.absent, by * n.info.typical}, n.info.lower, n.info.upper, n.info.ratio};
     };
     add(c.hypothesis->strengths, scale), add(c.hypothesis->details, 1);
@@ -59,14 +59,14 @@ double scale_of(const Candidate& c, const JointFit& fit) {
   double scale = 1;
   for (const FreeNumber& n : c.strengths)
     for (const SharedEstimate& e : fit.shared)
-      if (e.name == c.effect + "." + n.name)
+      if (e.name == c.name_of(n))
         scale = std::max(scale, std::abs(n.info.off(e.value)) / n.info.typical);
   return scale;
 }
 
 std::map<std::string, double> values_of(const JointFit& fit) {
   std::map<std::string, double> result;
-  for (const SharedEstimate& e : fit.shared) result[e.name] = e.value;
+  for (const SharedEstimate& e : fit.shared) result[e.name.text()] = e.value;
   return result;
 }
 
@@ -79,7 +79,7 @@ JointFit fit_from(const ModelFit& m, const Task& task, double farthest) {
   Vector step(task.score.signature.cols());
   for (size_t i = 0; i < candidate.strengths.size(); ++i) {
     const FreeNumber& n = candidate.strengths[i];
-    step[Eigen::Index(i)] = n.info.off(options.shared_start.at(candidate.effect + "." + n.name));
+    step[Eigen::Index(i)] = n.info.off(options.shared_start.at(candidate.name_of(n).text()));
   }
   const auto start = response(task.null_model.fit, task.errors, task.score.signature * step);
   options.start = &start;
@@ -144,8 +144,8 @@ ModelFit with_candidate_added(const Task& task) {
 /// Throws InputError where the model cannot be built.
 ModelFit fitted(ModelFit m, const Task& task) {
   const Observations& observations = task.null_model.set->observations();
-  m.set = std::make_shared<ConditionSet>(m.description, observations,
-                                         fitted_conditions(observations));
+  m.set =
+      std::make_shared<ConditionSet>(m.description, observations, fitted_conditions(observations));
   m.fit = first_fit(m, task);
   if (!task.candidate.is_switch()) m = rescaled(std::move(m), task);
   else if (!improves(m.fit, task.null_model.fit)) m = inverted_anew(std::move(m), task);

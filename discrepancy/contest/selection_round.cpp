@@ -72,10 +72,10 @@ double gain_of(const ModelFit& model, const NullModel& null_model) {
 CandidateRefit refit_in_full(RankedCandidate r, const NullModel& null_model,
                              const std::vector<Matrix>& heldout_influences, const Bar& bar,
                              const DiscoverOptions& options) {
-  options.report_progress(fmt::format("  refitting {}, log odds {:.1f} by its score",
-                                      r.candidate.label(), r.log_odds));
-  ModelFit model = refit(null_model.model, r.candidate, r.score, *null_model.errors.fitted,
-                         bar.give_up_above);
+  options.report_progress(
+      fmt::format("  refitting {}, log odds {:.1f} by its score", r.candidate.label(), r.log_odds));
+  ModelFit model =
+      refit(null_model.model, r.candidate, r.score, *null_model.errors.fitted, bar.give_up_above);
   r.message = model.message;
   if (!model.fitted()) {
     options.report_progress(fmt::format("    given up: {}", r.message));
@@ -144,7 +144,8 @@ SelectionRound scored(const NullModel& null_model, const std::vector<Matrix>& in
   s.round.chi_square = null_model.model.chi_square, s.round.dof = null_model.model.dof;
   const auto all = candidates_beside(found, null_model);
   const auto started = std::chrono::steady_clock::now();
-  const auto scores = score(all, *null_model.model.set, null_model.model.fit, influences, projection);
+  const auto scores =
+      score(all, *null_model.model.set, null_model.model.fit, influences, projection);
   s.round.candidates = as_scored(all, scores, log_prior(all));
   s.round.seconds_scoring =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -224,8 +225,7 @@ SelectionRound against_restarted(SelectionRound s, const DiscoverOptions& option
 SelectionRound select_effect(const NullModel& null_model, const std::vector<Matrix>& influences,
                              const Projection& projection, const std::vector<Candidate>& found,
                              const DiscoverOptions& options) {
-  SelectionRound s =
-      weighed(refitted(scored(null_model, influences, projection, found), options));
+  SelectionRound s = weighed(refitted(scored(null_model, influences, projection, found), options));
   const auto is_found = [&] { return !s.contenders.empty() && s.round.nothing < options.nothing; };
   if (!is_found()) return s;
   s = against_restarted(with_mesh_errors(std::move(s), found, options), options);

@@ -23,7 +23,7 @@ constexpr double near_zero = 1e-4;   // activation of a muscle known to rest
 constexpr size_t lying = 4;          // postures, rest among them, that are tried lying, too
 constexpr double usual_error = 0.1;  // of a known force, where no condition has one
 
-/// A tongue under one account.
+/// The tongue of one model.
 struct Tongue {
   explicit Tongue(const ModelDescription& d) : model(build_model(d, d.name)), workspace(model) {}
   bool has_weight() const { return model.description->effects.contains("gravity"); }

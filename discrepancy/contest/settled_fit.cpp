@@ -9,8 +9,7 @@ constexpr int most_passes = 2;  // of corrections and fits under them
 
 JointFit fit_of_all(ConditionSet& set, const SharedPrior& shared, const Errors& errors,
                     const JointFit& start, double precision) {
-  JointFit next =
-      fit(set, shared, &errors, {.start = &start.conditions, .precision = precision});
+  JointFit next = fit(set, shared, &errors, {.start = &start.conditions, .precision = precision});
   expect_all(set, next);
   return next;
 }
@@ -36,8 +35,8 @@ SettledFit settled(ConditionSet& set, const SharedPrior& shared, SettledFit s,
     const bool last = passes == most_passes;
     auto [corrections, refinement] = corrections_at(set, s.fit, s.refinement);
     s.refinement = std::move(refinement);
-    const auto there = std::make_shared<const Errors>(
-        errors_at(set, s.fit, std::move(corrections), error_model));
+    const auto there =
+        std::make_shared<const Errors>(errors_at(set, s.fit, std::move(corrections), error_model));
     JointFit next = fit_of_all(set, shared, *there, s.fit, last ? fine_precision : rough_precision);
     if (s.errors && runs_away(next, *there, s.fit, *s.errors, far_behind)) break;
     s.fit = std::move(next), s.errors = there, rough_yet = !last;

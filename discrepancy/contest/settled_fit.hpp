@@ -6,7 +6,8 @@
 
 namespace genio {
 
-constexpr double rough_precision = 1, fine_precision = 0.1;  ///< precision of first and last fits, of the log posterior
+constexpr double rough_precision = 1,
+                 fine_precision = 0.1;  ///< precision of first and last fits, of the log posterior
 
 /// A fit, the errors it was made under, and the refinement that knows the mesh's error.
 struct SettledFit {

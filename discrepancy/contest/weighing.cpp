@@ -59,7 +59,8 @@ Weights weigh(const std::vector<double>& log_odds) {
   for (double odds : log_odds) most = std::max(most, odds);
   double sum = std::exp(log_nothing - most);
   for (double odds : log_odds) sum += std::exp(odds - most);
-  Weights w{.nothing = std::exp(log_nothing - most) / sum};
+  Weights w;
+  w.nothing = std::exp(log_nothing - most) / sum;
   double highest = -1;
   for (size_t i = 0; i < log_odds.size(); ++i) {
     w.probabilities.push_back(std::exp(log_odds[i] - most) / sum);
@@ -69,11 +70,10 @@ Weights weigh(const std::vector<double>& log_odds) {
 }
 
 std::vector<RankedCandidate> ranked(std::vector<RankedCandidate> candidates) {
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const RankedCandidate& a, const RankedCandidate& b) {
-                     return std::tie(a.probability, a.log_odds) >
-                            std::tie(b.probability, b.log_odds);
-                   });
+  std::stable_sort(
+      candidates.begin(), candidates.end(), [](const RankedCandidate& a, const RankedCandidate& b) {
+        return std::tie(a.probability, a.log_odds) > std::tie(b.probability, b.log_odds);
+      });
   return candidates;
 }
 

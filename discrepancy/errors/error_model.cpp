@@ -42,7 +42,13 @@ std::vector<std::vector<std::pair<int, Vec3>>> nodal_gradients(const HexMesh& me
   return result;
 }
 
-bool is_muscles(const Effect& e) { return e.name() == "muscles"; }
+/// Whether effects pull by commands, as muscles do.
+std::vector<bool> have_commands(const Model& model) {
+  std::vector<bool> result(model.effects.size(), false);
+  for (const ParameterSlot& s : model.parameters)
+    if (s.is_command) result[size_t(s.effect)] = true;
+  return result;
+}
 
 }  // namespace
 
@@ -68,11 +74,15 @@ Matrix noise_covariance(const Target& target, const Residuals& r, double length)
 }
 
 Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matrix& influence) {
-  const Forces f = forces_of(model, c.x, c.parameters, is_muscles);
+  const std::vector<bool> pulls = have_commands(model);
+  Forces f = Forces::Zero(c.x.size());
   Stiffness k(model.pattern);
   for (size_t e = 0; e < model.effects.size(); ++e)
-    if (is_muscles(*model.effects[e]))
-      model.effects[e]->add_stiffness(c.x, effect_parameters(model, c.parameters, int(e)), k);
+    if (pulls[e]) {
+      const auto values = effect_parameters(model, c.parameters, int(e));
+      model.effects[e]->add_force(c.x, values, f);
+      model.effects[e]->add_stiffness(c.x, values, k);
+    }
   const Matrix turned = k.multiply_columns(influence.transpose());  // 3 n x rows
   const auto gradients = nodal_gradients(model.mesh);
   Matrix result = Matrix::Zero(influence.rows(), influence.cols());
@@ -123,14 +133,13 @@ Matrix efficacy_covariance(const ConditionSet& set, const JointFit& fit,
     const FittedCondition& c = fit.conditions[k];
     const Model& model = set.model(k);
     std::vector<int> pulling;
-    for (const Muscle& m : model.muscles)
-      if (const int p = parameter_index(model, "muscles." + m.name); c.parameters[p] > 0)
-        pulling.push_back(p);
+    for (size_t p = 0; p < model.parameters.size(); ++p)
+      if (model.parameters[p].is_command && c.parameters[Eigen::Index(p)] > 0)
+        pulling.push_back(int(p));
     const Matrix by_force = influences[k] * force_derivatives(model, c.x, c.parameters, pulling);
-    for (size_t i = 0; i < pulling.size(); ++i) {
-      add(each, model.parameters[size_t(pulling[i])].name, first,
+    for (size_t i = 0; i < pulling.size(); ++i)
+      add(each, model.parameters[size_t(pulling[i])].name.key, first,
           c.parameters[pulling[i]] * by_force.col(Eigen::Index(i)));
-    }
   }
   for (const auto& [name, r] : each) add(both, bilateral_name(name), 0, r);
   Matrix covariance = Matrix::Zero(rows, rows);

@@ -50,7 +50,8 @@ class Refinement {
 
   ModelDescription description_;
   const Observations& observations_;
-  std::map<std::map<std::string, double>, std::shared_ptr<Tongues>> tongues_;  ///< by known effects
+  std::map<std::map<ParameterName, double>, std::shared_ptr<Tongues>>
+      tongues_;  ///< by known effects
   std::map<size_t, Known> known_;
 };
 

@@ -77,8 +77,8 @@ std::vector<MapPatch> patches_of(const std::vector<MapPoint>& points) {
   return patches;
 }
 
-/// Covariance of a body force between nodes, of length `length` [m], for each axis alike: it acts on
-/// the volume that a node stands for.
+/// Covariance of a body force between nodes, of length `length` [m], for each axis alike: it acts
+/// on the volume that a node stands for.
 Matrix body_force_covariance(const HexMesh& mesh, double length) {
   const auto n = Eigen::Index(mesh.nodes.size());
   const Vector volume = tissue_mass(mesh, 1.0) * Vector::Ones(n);

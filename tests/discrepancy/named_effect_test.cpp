@@ -16,7 +16,7 @@ ParameterInfo between(double lower, double upper) {
 }
 
 TEST(Intervals, AreAsWideAsTheErrorModelMakesThem) {
-  const SharedEstimate fitted{"e.v", "N", 10, 1, 10 - 1.645, 10 + 1.645};
+  const SharedEstimate fitted{{"e", "v"}, "N", 10, 1, 10 - 1.645, 10 + 1.645};
   const SharedEstimate same = widened(fitted, between(-100, 100), 0);
   EXPECT_DOUBLE_EQ(same.low, fitted.low);
   EXPECT_DOUBLE_EQ(same.high, fitted.high);
@@ -28,7 +28,7 @@ TEST(Intervals, AreAsWideAsTheErrorModelMakesThem) {
 }
 
 TEST(Intervals, AreSkewedAwayFromWhereAnEffectVanishes) {
-  const SharedEstimate fitted{"e.v", "N", 10, 3, 10 - 4.9, 10 + 4.9};
+  const SharedEstimate fitted{{"e", "v"}, "N", 10, 3, 10 - 4.9, 10 + 4.9};
   const SharedEstimate up = widened(fitted, between(0, 100), 0);
   EXPECT_NEAR(up.high, 10 * std::exp(0.49), 1e-9);
   EXPECT_NEAR(up.low, fitted.low, 1e-12);
@@ -42,7 +42,7 @@ TEST(Intervals, AreSkewedAwayFromWhereAnEffectVanishes) {
 TEST(Intervals, OfAFactorAreThoseOfItsLogarithm) {
   ParameterInfo info = between(0.05, 100);
   info.absent = 1, info.ratio = true;
-  const SharedEstimate fitted{"stiff_region.factor", "1", 8, 4, 4, 16};
+  const SharedEstimate fitted{{"stiff_region", "factor"}, "1", 8, 4, 4, 16};
   const SharedEstimate same = widened(fitted, info, 0);
   EXPECT_NEAR(same.low, 4, 1e-12);
   EXPECT_NEAR(same.high, 16, 1e-12);

@@ -60,7 +60,7 @@ TEST_F(ObservationsFile, KnownForcesAndEffectsAreRead) {
   const auto& forces = *o.conditions[0].forces;
   EXPECT_NEAR(forces.at("GGP_L").mean, 1, 1e-12);
   EXPECT_NEAR(forces.at("GGP_L").sd, 0.1, 1e-12);
-  EXPECT_EQ(o.conditions[0].effects.at("jaw_opening.angle"), 4);
+  EXPECT_EQ(o.conditions[0].effects.at({"jaw_opening", "angle"}), 4);
 }
 
 }  // namespace

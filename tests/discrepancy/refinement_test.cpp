@@ -1,3 +1,5 @@
+// What the coarse mesh gets wrong is found once for shapes that are alike.
+
 #include "discrepancy/errors/refinement.hpp"
 
 #include "discrepancy/candidates/symmetric_part.hpp"
