@@ -32,18 +32,18 @@ const char* towards(const Vec3& force) {
 std::string effects_part(const Discovery& d) {
   std::string s;
   for (const NamedEffect& e : d.effects) {
-    s += fmt::format("<h3>{}</h3><p>Probability among all accounts tried: {:.3f}.</p>\n<table>",
+    s += fmt::format("<h3>{}</h3><p>Probability among all models tried: {:.3f}.</p>\n<table>",
                      escaped(label(e.effect, e.where)), e.confidence);
     s += "<tr><th>parameter</th><th>value</th><th>sd</th><th>90 % interval</th><th>unit</th></tr>";
     for (const SharedEstimate& p : e.parameters)
       s += fmt::format(
           "<tr><td>{}</td><td>{:.4g}</td><td>{:.2g}</td><td>{:.4g} to {:.4g}</td>"
           "<td>{}</td></tr>\n",
-          escaped(p.name), p.value, p.sd, p.low, p.high, escaped(p.unit));
+          escaped(p.name.text()), p.value, p.sd, p.low, p.high, escaped(p.unit));
     s += "</table>\n";
   }
   if (d.effects.empty()) s += "<p>No effect is named.</p>\n";
-  for (const Rival& r : d.alternatives) {
+  for (const AlternativeEffect& r : d.alternatives) {
     s += fmt::format(
         "<p>Or {}: probability {:.3f}; its signature is like the first one's by "
         "{:.2f}.",
@@ -62,7 +62,7 @@ std::string effects_part(const Discovery& d) {
 /// How strong what was looked for would have to be for these data to show it.
 std::string detectable_part(const Round& round) {
   std::string s = "<table><tr><th>candidate</th><th>seen nine times in ten from</th></tr>";
-  for (const Ranked& r : round.candidates) {
+  for (const RankedCandidate& r : round.candidates) {
     if (!r.score.visible) {
       s += fmt::format("<tr><td>{}</td><td>never by these data</td></tr>\n",
                        escaped(r.candidate.label()));
@@ -81,7 +81,7 @@ std::string detectable_part(const Round& round) {
 
 std::string families_part(const Discovery& d) {
   std::string s;
-  for (const Family& f : d.families)
+  for (const ConfoundedSet& f : d.confounded_sets)
     s += fmt::format("<p>Never told apart by these data ({}): {}; {}.</p>\n", escaped(f.name),
                      escaped(fmt::format("{}", fmt::join(f.members, ", "))), escaped(f.why));
   return s;
@@ -111,7 +111,7 @@ std::string discovery_page(const Discovery& d, const Observations& o, const std:
       "table{{border-collapse:collapse}}td,th{{border:1px solid #ccc;padding:.3em .7em;"
       "text-align:left}}svg{{max-width:100%;height:auto}}</style></head><body>\n<h1>{0}</h1>\n"
       "<p><b>{1}</b>: {2}.</p>\n",
-      escaped(title), to_string(d.finding), escaped(d.message));
+      escaped(title), to_string(d.verdict), escaped(d.message));
   s += "<h2>Where</h2>\n" + patches_part(d, o);
   if (d.hidden.log_evidence > 0)
     s += fmt::format(

@@ -43,16 +43,16 @@ Vector step_on_its_side(const Matrix& h, const Vector& slope,
   return step;
 }
 
-struct Promise {
+struct ScaledStep {
   double scale, gain;  ///< of typical strengths; log evidence
   Vector step;         ///< of the strengths, in typical ones
   Matrix posterior;    ///< inverse of its covariance
 };
 
 /// At the scale of beliefs that gains most.
-Promise promised(const Matrix& information, const Vector& slope,
-                 const std::vector<FreeNumber>& strengths) {
-  Promise best{0, 0, {}, {}};
+ScaledStep best_step(const Matrix& information, const Vector& slope,
+                     const std::vector<FreeNumber>& strengths) {
+  ScaledStep best{0, 0, {}, {}};
   const auto n = slope.size();
   for (double scale = 1; scale <= largest_scale; scale *= 2) {
     const Matrix h = information + Matrix::Identity(n, n) / (scale * scale);
@@ -144,7 +144,7 @@ Matrix Projection::operator()(const Matrix& columns) const {
   return all - basis_ * (basis_.transpose() * all);
 }
 
-Matrix signature(const Candidate& candidate, const Study& study, const JointFit& fit,
+Matrix signature(const Candidate& candidate, const ConditionSet& set, const JointFit& fit,
                  const std::vector<Matrix>& influences) {
   Eigen::Index rows = 0;
   for (const Matrix& a : influences) rows += a.rows();
@@ -161,12 +161,12 @@ Matrix signature(const Candidate& candidate, const Study& study, const JointFit&
     }
     for (Eigen::Index s = 0; s < count; ++s)
       block.col(s) = influences[k] * forces_by(*candidate.hypothesis,
-                                               candidate.strengths[size_t(s)], study.model(k), c);
+                                               candidate.strengths[size_t(s)], set.model(k), c);
   }
   return result;
 }
 
-std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& study,
+std::vector<Score> score(const std::vector<Candidate>& candidates, const ConditionSet& set,
                          const JointFit& fit, const std::vector<Matrix>& influences,
                          const Projection& projection, double level) {
   std::vector<Score> result;
@@ -178,7 +178,7 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     Vector typical(count);
     for (Eigen::Index i = 0; i < count; ++i) typical[i] = strengths[size_t(i)].belief.typical;
     // By one typical strength.
-    s.signature = signature(candidates[c], study, fit, influences);
+    s.signature = signature(candidates[c], set, fit, influences);
     const Matrix change = s.signature * typical.asDiagonal();
     s.moves = change.squaredNorm() > invisible * invisible;
     const Matrix g = projection(change);
@@ -188,7 +188,7 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     s.visible = information.trace() > invisible * invisible;
     if (s.visible) {
       const Vector slope = g.transpose() * projection.residuals();
-      const auto [scale, gain, step, posterior] = promised(information, slope, strengths);
+      const auto [scale, gain, step, posterior] = best_step(information, slope, strengths);
       s.scale = scale, s.log_evidence = gain;
       const Eigen::JacobiSVD<Matrix> svd(information, Eigen::ComputeThinU);
       double chi2 = 0;

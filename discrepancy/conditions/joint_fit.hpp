@@ -6,7 +6,8 @@
 #include <map>
 #include <optional>
 
-#include "discrepancy/conditions/study.hpp"
+#include "discrepancy/conditions/condition_set.hpp"
+#include "forward/base/parameter_name.hpp"
 #include "inverse/target/comparison.hpp"
 
 namespace genio {
@@ -34,8 +35,10 @@ struct FittedCondition {
 
 /// A shared parameter's estimate in its own unit.
 struct SharedEstimate {
-  std::string name, unit;
+  ParameterName name;
+  std::string unit;
   double value = 0, sd = 0, low = 0, high = 0;  ///< 90 % interval
+  Unknown::Kind kind = Unknown::Kind::parameter;
 };
 
 struct JointFit {
@@ -75,14 +78,14 @@ struct FitOptions {
   const std::vector<FittedCondition>* start = nullptr;
   std::map<std::string, double> shared_start = {};  ///< of shared parameters, in their own unit
   std::map<std::string, double> fixed = {};         ///< shared parameters that stay as they are
-  double precision = 0.5;  ///< of the log posterior: enough to compare accounts
+  double precision = 0.5;  ///< of the log posterior: enough to compare models
   /// Gives up once minus the log posterior does not come below this.
-  double hopeless = std::numeric_limits<double>::infinity();
+  double give_up_above = std::numeric_limits<double>::infinity();
 };
 
 /// The unknowns that maximise the posterior under the given errors (null: independent noise), by
 /// Ipopt from equilibrium to equilibrium (descend()).
-JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
+JointFit fit(ConditionSet& set, const SharedPrior& shared, const Errors* errors,
              const FitOptions& options = {});
 
 }  // namespace genio

@@ -144,33 +144,31 @@ Condition read_condition(const TomlReader& file, const toml::node& node, const M
 
 }  // namespace
 
-std::string effect_parameter(const std::string& name, const std::string& source) {
-  const auto dot = name.find('.');
-  const std::string effect = name.substr(0, dot);
+ParameterName effect_parameter(const std::string& name, const std::string& source) {
+  const bool is_whole = name.find('.') != std::string::npos;
+  const std::string effect = is_whole ? ParameterName::parse(name).effect : name;
   const auto& names = effect_names();
   if (std::find(names.begin(), names.end(), effect) == names.end() || effect == "muscles")
     throw InputError(fmt::format("{}: '{}' is no effect; did you mean {}?", source, effect,
                                  nearest_name(effect, names)));
-  if (dot != std::string::npos) return name;
+  if (is_whole) return ParameterName::parse(name);
   static const std::map<std::string, std::string> first = {
       {"jaw_opening", "angle"}, {"gravity", "pitch"}, {"airway_pressure", "pressure"}};
   const auto known = first.find(effect);
   if (known == first.end())
     throw InputError(
         fmt::format("{}: '{}' has several parameters; write {}.PARAMETER", source, name, name));
-  return effect + "." + known->second;
+  return {effect, known->second};
 }
 
-ModelDescription with_parameter(ModelDescription d, const std::string& name, double value) {
-  const auto dot = name.find('.');
-  const std::string effect = name.substr(0, dot);
-  if (!d.effects.contains(effect))
+ModelDescription with_parameter(ModelDescription d, const ParameterName& name, double value) {
+  if (!d.effects.contains(name.effect))
     for (const Hypothesis& h : hypotheses(d))
-      if (h.effect == effect) {
+      if (h.effect == name.effect) {
         d = h.added_to(d);
         break;
       }
-  d.effects[effect][name.substr(dot + 1)] = value;
+  d.effects[name.effect][name.key] = value;
   return d;
 }
 

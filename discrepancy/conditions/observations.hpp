@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "forward/base/parameter_name.hpp"
 #include "forward/model/model_file.hpp"
 #include "inverse/prior/prior.hpp"
 #include "inverse/target/target.hpp"
@@ -18,8 +19,8 @@ struct Condition {
   Target target;  ///< points without a noise of their own have the observations'
   /// Known commands [N] and their standard deviations; those not named are 0. Unset: unknown.
   std::optional<std::map<std::string, Normal>> forces;
-  std::map<std::string, double> effects;  ///< known values: "jaw_opening.angle"
-  bool heldout = false;                   ///< never fitted
+  std::map<ParameterName, double> effects;  ///< known values: "jaw_opening.angle"
+  bool heldout = false;                     ///< never fitted
 };
 
 struct Observations {
@@ -37,11 +38,11 @@ Observations read_observations(const std::string& path, const Model& model);
 
 /// "jaw_opening" alone means an effect's first parameter. Throws InputError naming `source` for
 /// what the library of effects has not.
-std::string effect_parameter(const std::string& name, const std::string& source);
+ParameterName effect_parameter(const std::string& name, const std::string& source);
 
 /// The description with an effect's parameter set, the effect added at vanishing strength where it
 /// has none.
-ModelDescription with_parameter(ModelDescription description, const std::string& name,
+ModelDescription with_parameter(ModelDescription description, const ParameterName& name,
                                 double value);
 
 }  // namespace genio

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "discrepancy/conditions/influence.hpp"
-#include "discrepancy/contest/base.hpp"
-#include "discrepancy/contest/contest.hpp"
-#include "discrepancy/contest/weighing.hpp"
+#include "discrepancy/contest/selection_round.hpp"
 #include "inverse/posterior/distributions.hpp"
 
 namespace genio {
@@ -17,148 +16,175 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double worth_a_line = 0.01;  // probability of an alternative that is reported
+
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+/// What the rounds so far have come to.
+struct Search {
+  NullModel null_model;
+  std::vector<Candidate> effects;  // added, one after another
+  std::vector<double> confidence;  // of each
+  Discovery discovery;
+  bool over = false;  // nothing more is to be named
+};
 
 double cosine(const Vector& a, const Vector& b) {
   return a.size() == b.size() && a.size() > 0 ? std::abs(a.dot(b)) : 0;
 }
 
-std::vector<ShapeLine> lines(const Account& a) {
-  auto all = shape_lines(*a.study, a.fit);
-  if (a.heldout_study)
-    for (auto& line : shape_lines(*a.heldout_study, a.heldout)) all.push_back(std::move(line));
+std::vector<ShapeLine> lines(const ModelFit& m) {
+  auto all = shape_lines(*m.set, m.fit);
+  if (m.heldout_set)
+    for (auto& line : shape_lines(*m.heldout_set, m.heldout)) all.push_back(std::move(line));
   return all;
 }
 
-class Search {
- public:
-  Search(const ModelDescription& d, const Observations& o, const DiscoverOptions& options)
-      : options_(options), found_(d), base_(fitted_base(d, o, options)) {
-    d_.noise = o.noise;
-    d_.before = gap_of(account().fit, d_.noise);
-    d_.heldout_before = gap_of(account().heldout, d_.noise);
-    d_.lines_before = lines(account());
-    tell(fmt::format("gap {:.2f} mm ({:.2f} mm held out), noise {:.2f} mm", 1e3 * d_.before.rms,
-                     1e3 * d_.heldout_before.rms, 1e3 * d_.noise));
-  }
+ResidualMap map_of(const NullModel& n) {
+  return localise(*n.model.set, n.model.fit, n.errors.fitted->matrix);
+}
 
-  Discovery run() {
-    for (int round = 0; round < options_.most_effects; ++round)
-      if (!search_once()) break;
-    decide();
-    return std::move(d_);
-  }
+Search started(const ModelDescription& description, const Observations& observations,
+               const DiscoverOptions& options) {
+  Search s;
+  s.null_model =
+      fitted_null_model(description, observations, options.error_model, options.correct_mesh);
+  Discovery& d = s.discovery;
+  d.noise = observations.noise;
+  d.before = gap_of(s.null_model.model.fit, d.noise);
+  d.heldout_before = gap_of(s.null_model.model.heldout, d.noise);
+  d.lines_before = lines(s.null_model.model);
+  options.report_progress(fmt::format("gap {:.2f} mm ({:.2f} mm held out), noise {:.2f} mm",
+                                      1e3 * d.before.rms, 1e3 * d.heldout_before.rms,
+                                      1e3 * d.noise));
+  return s;
+}
 
- private:
-  const Account& account() const { return base_.account; }
-  const Observations& observations() const { return base_.evidence.observations; }
-  ResidualMap map() const {
-    return localise(*account().study, account().fit, base_.evidence.fitted.matrix);
-  }
+/// Probability of the winner's effect, wherever it is.
+double confidence_in_winner(const SelectionRound& r) {
+  double probability = 0;
+  for (const RankedCandidate& c : r.round.candidates)
+    if (c.candidate.effect == r.candidate_of(*r.winner).candidate.effect)
+      probability += c.probability;
+  return probability;
+}
 
-  void tell(const std::string& line) const {
-    if (options_.progress) options_.progress(line);
+/// The winner's likely alternatives, in the order of their scores.
+std::vector<AlternativeEffect> alternatives_of(const SelectionRound& r) {
+  const RankedCandidate& best = r.candidate_of(*r.winner);
+  const Observations& observations = r.null_model.model.set->observations();
+  std::vector<size_t> by_score(r.contenders.size());
+  std::iota(by_score.begin(), by_score.end(), size_t(0));
+  std::sort(by_score.begin(), by_score.end(), [&](size_t a, size_t b) {
+    return r.contenders[a].candidate < r.contenders[b].candidate;
+  });
+  std::vector<AlternativeEffect> result;
+  for (size_t c : by_score) {
+    const RankedCandidate& other = r.candidate_of(c);
+    if (other.candidate.effect == best.candidate.effect || other.probability <= worth_a_line)
+      continue;
+    result.push_back({other.candidate.effect, other.candidate.where, other.probability,
+                      cosine(other.score.direction, best.score.direction),
+                      experiments(posed_model_of(r.contenders[*r.winner].model),
+                                  posed_model_of(r.contenders[c].model), observations)});
   }
+  return result;
+}
 
-  /// One round; false when nothing more is to be named.
-  bool search_once() {
-    const auto started = Clock::now();
-    const auto influences = influences_of(*account().study, account().fit);
-    const Projection projection(account().fit, base_.evidence.fitted.covariance);
-    const double seconds = since(started);
-    if (d_.rounds.empty()) {
-      d_.map_before = d_.map_after = map();
-      d_.hidden = hidden_force(*account().study, influences, projection);
-    }
-    Contest c = contest(base_, influences, projection, effects_, options_);
-    c.round.seconds_scoring += seconds;
-    if (c.won) accept(c);
-    rank(c.round);
-    d_.rounds.push_back(std::move(c.round));
-    return c.won;
+/// The search with a round's winner added to the model.
+Search with_winner_added(Search s, const SelectionRound& r, const DiscoverOptions& options) {
+  const Candidate& winner = r.candidate_of(*r.winner).candidate;
+  s.effects.push_back(winner);
+  s.confidence.push_back(confidence_in_winner(r));
+  for (AlternativeEffect& a : alternatives_of(r)) s.discovery.alternatives.push_back(std::move(a));
+  options.report_progress(
+      fmt::format("  {}: probability {:.3f}", winner.label(), s.confidence.back()));
+  s.null_model =
+      with_winner(r.null_model, r.contenders[*r.winner].model, s.effects, options.error_model);
+  return s;
+}
+
+/// The search after one round more.
+Search after_round(Search s, const DiscoverOptions& options) {
+  const auto start = Clock::now();
+  const ModelFit& m = s.null_model.model;
+  const auto influences = influences_of(*m.set, m.fit);
+  const Projection projection(m.fit, s.null_model.errors.fitted->covariance);
+  const double seconds = since(start);
+  if (s.discovery.rounds.empty()) {
+    s.discovery.map_before = s.discovery.map_after = map_of(s.null_model);
+    s.discovery.hidden = hidden_force(*m.set, influences, projection);
   }
+  SelectionRound r = select_effect(s.null_model, influences, projection, s.effects, options);
+  r.round.seconds_scoring += seconds;
+  s.over = !r.winner;
+  if (r.winner) s = with_winner_added(std::move(s), r, options);
+  else s.null_model = std::move(r.null_model);
+  r.round.candidates = ranked(std::move(r.round.candidates));
+  s.discovery.rounds.push_back(std::move(r.round));
+  return s;
+}
 
-  void accept(const Contest& c) {
-    const auto& all = c.round.candidates;
-    const Ranked& best = all[c.best];
-    double probability = 0;  // of the effect, wherever it is
-    for (const Ranked& r : all)
-      if (r.candidate.effect == best.candidate.effect) probability += r.probability;
-    effects_.push_back(best.candidate);
-    confidence_.push_back(probability);
-    for (size_t i = 0; i < all.size(); ++i) {
-      const Ranked& r = all[i];
-      if (!r.refitted || r.candidate.effect == best.candidate.effect || r.probability <= 0.01)
-        continue;
-      d_.alternatives.push_back({r.candidate.effect, r.candidate.where, r.probability,
-                                 cosine(r.score.direction, best.score.direction),
-                                 experiments(explanation_of(c.accounts[c.best]),
-                                             explanation_of(c.accounts[i]), observations())});
-    }
-    tell(fmt::format("  {}: probability {:.3f}", best.candidate.label(), probability));
-    move_base(base_, c.accounts[c.best], effects_, options_);
+/// What comes nearest is listed among the alternatives, but is no name.
+Discovery without_a_name(Discovery d, const Search& s, const ModelDescription& as_given) {
+  for (size_t i = 0; i < s.effects.size(); ++i)
+    d.alternatives.insert(d.alternatives.begin() + long(i),
+                          {s.effects[i].effect, s.effects[i].where, s.confidence[i], 1});
+  d.effects.clear();
+  d.model = as_given;
+  d.map_after = d.map_before, d.lines_after = d.lines_before;
+  d.after = d.before, d.heldout_after = d.heldout_before;
+  return d;
+}
+
+Discovery concluded(const Search& s, const ModelDescription& as_given,
+                    const DiscoverOptions& options) {
+  const ModelFit& m = s.null_model.model;
+  Discovery d = s.discovery;
+  if (!s.effects.empty()) d.map_after = map_of(s.null_model);
+  d.after = gap_of(m.fit, d.noise);
+  d.heldout_after = gap_of(m.heldout, d.noise);
+  d.lines_after = lines(m);
+  d.confounded_sets = confounded_sets(m.set->observations(), d.rounds.front());
+  d.model = with_fitted(m.description, m.fit);
+  d.fit_tail = chi_square_tail(m.chi_square, m.dof);
+  if (!m.heldout.conditions.empty()) {
+    const Projection heldout(m.heldout, s.null_model.errors.heldout->covariance);
+    d.heldout_tail = chi_square_tail(heldout.chi_square(), heldout.dof());
   }
-
-  void decide() {
-    if (!effects_.empty()) d_.map_after = map();
-    d_.after = gap_of(account().fit, d_.noise);
-    d_.heldout_after = gap_of(account().heldout, d_.noise);
-    d_.lines_after = lines(account());
-    d_.families = families(observations(), d_.rounds.front());
-    d_.model = with_fitted(account().description, account().fit);
-    d_.fit_tail = chi_square_tail(account().chi_square, account().dof);
-    if (!account().heldout.conditions.empty()) {
-      const Projection heldout(account().heldout, base_.evidence.heldout.covariance);
-      d_.heldout_tail = chi_square_tail(heldout.chi_square(), heldout.dof());
-    }
-    d_.effects = named(account().fit, effects_, confidence_, options_.doubt);
-    const bool explained = d_.fit_tail >= options_.fit_level;
-    if (effects_.empty()) {
-      // What only the conditions held out show no search could find, but there it is.
-      const bool everywhere = explained && d_.heldout_tail >= options_.fit_level;
-      d_.finding = everywhere ? Finding::none : Finding::unknown;
-    } else if (!explained) {
-      d_.finding = Finding::unknown;
-    } else {
-      const double least = *std::min_element(confidence_.begin(), confidence_.end());
-      d_.finding = least >= options_.certain ? Finding::named : Finding::ambiguous;
-    }
-    d_.message = explanation(d_.finding, d_.fit_tail, d_.heldout_tail);
-    if (d_.finding == Finding::unknown || d_.finding == Finding::none) name_nothing();
-  }
-
-  /// What comes nearest is told among the alternatives, but is no name.
-  void name_nothing() {
-    for (size_t i = 0; i < effects_.size(); ++i)
-      d_.alternatives.insert(d_.alternatives.begin() + long(i),
-                             {effects_[i].effect, effects_[i].where, confidence_[i], 1});
-    d_.effects.clear();
-    d_.model = found_;
-    d_.map_after = d_.map_before, d_.lines_after = d_.lines_before;
-    d_.after = d_.before, d_.heldout_after = d_.heldout_before;
-  }
-
-  const DiscoverOptions& options_;
-  ModelDescription found_;  // as given
-  Base base_;
-  std::vector<Candidate> effects_;
-  std::vector<double> confidence_;
-  Discovery d_;
-};
+  d.effects = named(m.fit, s.effects, s.confidence, options.error_model);
+  d.verdict = verdict_of(s.confidence, d.fit_tail, d.heldout_tail, options);
+  d.message = message_of(d.verdict, d.fit_tail, d.heldout_tail);
+  const bool has_name =
+      d.verdict == DiscoveryVerdict::named || d.verdict == DiscoveryVerdict::ambiguous;
+  return has_name ? d : without_a_name(std::move(d), s, as_given);
+}
 
 }  // namespace
 
+DiscoveryVerdict verdict_of(const std::vector<double>& confidence, double fit_tail,
+                            double heldout_tail, const DiscoverOptions& options) {
+  if (fit_tail < options.fit_level) return DiscoveryVerdict::unknown;
+  // What only the conditions held out show no search could find, but there it is.
+  if (confidence.empty())
+    return heldout_tail < options.fit_level ? DiscoveryVerdict::unknown : DiscoveryVerdict::none;
+  const double least = *std::min_element(confidence.begin(), confidence.end());
+  return least >= options.certain ? DiscoveryVerdict::named : DiscoveryVerdict::ambiguous;
+}
+
 Discovery discover(const ModelDescription& description, const Observations& observations,
                    const DiscoverOptions& options) {
-  const auto started = Clock::now();
-  if (options.progress)
-    options.progress(fmt::format("{} conditions to fit, {} held out",
-                                 fitted_conditions(observations).size(),
-                                 heldout_conditions(observations).size()));
-  Discovery d = Search(description, observations, options).run();
-  d.seconds = since(started);
+  const auto start = Clock::now();
+  options.report_progress(fmt::format("{} conditions to fit, {} held out",
+                                      fitted_conditions(observations).size(),
+                                      heldout_conditions(observations).size()));
+  Search s = started(description, observations, options);
+  for (int round = 0; round < options.most_effects && !s.over; ++round)
+    s = after_round(std::move(s), options);
+  Discovery d = concluded(s, description, options);
+  d.seconds = since(start);
   return d;
 }
 

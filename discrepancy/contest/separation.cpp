@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "discrepancy/conditions/study.hpp"
+#include "discrepancy/conditions/condition_set.hpp"
 #include "discrepancy/errors/error_model.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/statics/sensitivity.hpp"
@@ -23,7 +23,7 @@ constexpr double near_zero = 1e-4;   // activation of a muscle known to rest
 constexpr size_t lying = 4;          // postures, rest among them, that are tried lying, too
 constexpr double usual_error = 0.1;  // of a known force, where no condition has one
 
-/// A tongue under one account.
+/// The tongue of one model.
 struct Tongue {
   explicit Tongue(const ModelDescription& d) : model(build_model(d, d.name)), workspace(model) {}
   bool has_weight() const { return model.description->effects.contains("gravity"); }
@@ -130,7 +130,7 @@ std::string Experiment::label() const {
   return s;
 }
 
-std::vector<Experiment> experiments(const Explanation& one, const Explanation& other,
+std::vector<Experiment> experiments(const PosedModel& one, const PosedModel& other,
                                     const Observations& o, size_t most) {
   const Condition& first = o.conditions.front();
   const double known = error_of_forces(first);

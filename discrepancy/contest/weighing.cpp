@@ -3,50 +3,78 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace genio {
+namespace {
 
-std::vector<size_t> worth_a_refit(const std::vector<Candidate>& all,
-                                  const std::vector<Score>& scores,
-                                  const std::vector<double>& prior, int most) {
-  std::vector<size_t> order(scores.size()), result;
-  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto odds = [&](size_t i) { return scores[i].log_evidence + prior[scores[i].candidate]; };
+constexpr int most_places = 2;  // of one effect that are refitted in a round
+// A straight line underrates effects that grow faster, but not by everything: log odds, as a part
+// of the best ones and beyond that, below which no candidate is refitted.
+constexpr double least_part = 0.2, least_below = 5;
+
+}  // namespace
+
+std::vector<double> log_prior(const std::vector<Candidate>& candidates) {
+  std::map<std::string, int> places;
+  for (const Candidate& c : candidates) ++places[c.effect];
+  std::vector<double> result;
+  for (const Candidate& c : candidates)
+    result.push_back(-std::log(2.0 * double(places.size()) * places[c.effect]));
+  return result;
+}
+
+std::vector<RankedCandidate> as_scored(const std::vector<Candidate>& all,
+                                       const std::vector<Score>& scores,
+                                       const std::vector<double>& prior) {
+  std::vector<RankedCandidate> result;
+  for (const Score& s : scores)
+    result.push_back({.candidate = all[s.candidate],
+                      .score = s,
+                      .log_prior = prior[s.candidate],
+                      .log_odds = s.log_evidence + prior[s.candidate]});
+  return result;
+}
+
+std::vector<size_t> worth_a_refit(const std::vector<RankedCandidate>& scored, int most) {
+  std::vector<size_t> order(scored.size()), result;
+  std::iota(order.begin(), order.end(), size_t(0));
   std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return odds(a) > odds(b); });
+                   [&](size_t a, size_t b) { return scored[a].log_odds > scored[b].log_odds; });
   std::map<std::string, int> count;
   for (size_t i : order) {
-    if (int(result.size()) >= most || !scores[i].visible) break;
-    // A straight line underrates effects that grow faster, but not by everything.
-    if (odds(i) < 0.2 * odds(order.front()) - 5 || scores[i].log_evidence <= 0) break;
-    if (++count[all[scores[i].candidate].effect] <= 2) result.push_back(i);
+    const RankedCandidate& r = scored[i];
+    if (int(result.size()) >= most || !r.score.visible) break;
+    const double least = least_part * scored[order.front()].log_odds - least_below;
+    if (r.log_odds < least || r.score.log_evidence <= 0) break;
+    if (++count[r.candidate.effect] <= most_places) result.push_back(i);
   }
   return result;
 }
 
-size_t weigh(Round& round, const std::vector<size_t>& refitted) {
+Weights weigh(const std::vector<double>& log_odds) {
   const double log_nothing = std::log(0.5);
   double most = log_nothing;
-  for (size_t i : refitted) most = std::max(most, round.candidates[i].log_odds);
+  for (double odds : log_odds) most = std::max(most, odds);
   double sum = std::exp(log_nothing - most);
-  for (size_t i : refitted) sum += std::exp(round.candidates[i].log_odds - most);
-  round.nothing = std::exp(log_nothing - most) / sum;
-  size_t best = 0;
+  for (double odds : log_odds) sum += std::exp(odds - most);
+  Weights w;
+  w.nothing = std::exp(log_nothing - most) / sum;
   double highest = -1;
-  for (size_t i : refitted) {
-    Ranked& r = round.candidates[i];
-    r.probability = std::exp(r.log_odds - most) / sum;
-    if (r.probability > highest) highest = r.probability, best = i;
+  for (size_t i = 0; i < log_odds.size(); ++i) {
+    w.probabilities.push_back(std::exp(log_odds[i] - most) / sum);
+    if (w.probabilities[i] > highest) highest = w.probabilities[i], w.likeliest = i;
   }
-  return best;
+  return w;
 }
 
-void rank(Round& round) {
+std::vector<RankedCandidate> ranked(std::vector<RankedCandidate> candidates) {
   std::stable_sort(
-      round.candidates.begin(), round.candidates.end(), [](const Ranked& a, const Ranked& b) {
+      candidates.begin(), candidates.end(), [](const RankedCandidate& a, const RankedCandidate& b) {
         return std::tie(a.probability, a.log_odds) > std::tie(b.probability, b.log_odds);
       });
+  return candidates;
 }
 
 }  // namespace genio

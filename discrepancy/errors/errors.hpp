@@ -6,10 +6,20 @@
 
 namespace genio {
 
-/// Errors at a fit; the mesh's own are found anew (null: none but what smooth distances are off
-/// by).
-Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
-                 const ModelDoubt& doubt);
+/// Corrections at a fit, and the refinement that knows them.
+struct CorrectionsAtFit {
+  Corrections corrections;
+  std::shared_ptr<const Refinement> refinement;
+};
+
+/// The mesh's own error at a fit. Without a refinement (null) the mesh is taken to be exact, and
+/// nothing is corrected but what smooth distances are off by.
+CorrectionsAtFit corrections_at(const ConditionSet& set, const JointFit& fit,
+                                std::shared_ptr<const Refinement> refinement);
+
+/// The errors at a fit with these corrections.
+Errors errors_at(ConditionSet& set, const JointFit& fit, Corrections corrections,
+                 const ErrorModel& error_model);
 
 /// True where a fit under new errors does not go with them as the last did with its own: minus the
 /// log posterior of fit and errors grew by more than `by`. Where a shape is about to snap, errors

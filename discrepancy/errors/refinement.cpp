@@ -89,9 +89,9 @@ bool Refinement::holds(const FittedCondition& c, size_t condition) const {
          (k->second.fitted - c.x).cwiseAbs().maxCoeff() < nearby;
 }
 
-bool Refinement::holds(const Study& study, const JointFit& fit) const {
+bool Refinement::holds(const ConditionSet& set, const JointFit& fit) const {
   for (size_t k = 0; k < fit.conditions.size(); ++k)
-    if (!holds(fit.conditions[k], study.members()[k])) return false;
+    if (!holds(fit.conditions[k], set.members()[k])) return false;
   return true;
 }
 
@@ -110,7 +110,7 @@ Positions Refinement::nearest_fine(const Tongues& t, const Positions& rest,
 Correction Refinement::correction(const Model& fitted, const FittedCondition& c, size_t condition) {
   const Condition& seen = observations_.conditions[condition];
   auto& made = tongues_[seen.effects];
-  if (!made) made = std::make_unique<Tongues>(under(description_, seen.effects));
+  if (!made) made = std::make_shared<Tongues>(with_effects(description_, seen.effects));
   Tongues& t = *made;
   SolveOptions options;
   options.tolerance = tolerance;
@@ -143,13 +143,15 @@ Correction Refinement::correction(const Model& fitted, const FittedCondition& c,
   return known.correction;
 }
 
-Corrections Refinement::corrections(const Study& study, const JointFit& fit) {
-  Corrections result;
+RefinedCorrections Refinement::corrections(const ConditionSet& set, const JointFit& fit) const {
+  RefinedCorrections result{{}, *this};
+  Refinement& after = result.refinement;
   for (size_t k = 0; k < fit.conditions.size(); ++k) {
-    const size_t condition = study.members()[k];
-    result.push_back(holds(fit.conditions[k], condition)
-                         ? known_.at(condition).correction
-                         : correction(study.model(k), fit.conditions[k], condition));
+    const FittedCondition& c = fit.conditions[k];
+    const size_t condition = set.members()[k];
+    result.corrections.push_back(after.holds(c, condition)
+                                     ? after.known_.at(condition).correction
+                                     : after.correction(set.model(k), c, condition));
   }
   return result;
 }

@@ -5,22 +5,25 @@
 
 namespace genio {
 
+struct RefinedCorrections;
+
 /// Refined tongues of a description, one for all that is known of a condition, each made when first
-/// needed.
+/// needed, and the fine shapes known so far. Copies share the tongues.
 class Refinement {
  public:
   Refinement(ModelDescription description, const Observations& observations)
       : description_(std::move(description)), observations_(observations) {}
   /// The same conditions with another description; known fine shapes serve as starts.
   Refinement(ModelDescription description, const Refinement& before);
-  /// For every condition: the residuals of the same problem on a mesh with every element split in
+  /// For every condition the residuals of the same problem on a mesh with every element split in
   /// eight, less those of this mesh by smooth distances, in units of the noise; on half a tongue,
-  /// with the mean forces of both sides, where the tongue is symmetric. Parameters of the study's
+  /// with the mean forces of both sides, where the tongue is symmetric. Parameters of the set's
   /// models that this description has not are left out. Zero where the finer problem has no
-  /// solution. What is known from a shape nearby is not computed again.
-  Corrections corrections(const Study& study, const JointFit& fit);
+  /// solution. What is known from a shape nearby is not computed again: the refinement that knows
+  /// these, too, comes with them.
+  RefinedCorrections corrections(const ConditionSet& set, const JointFit& fit) const;
   /// True where all of these corrections are known from shapes nearby.
-  bool holds(const Study& study, const JointFit& fit) const;
+  bool holds(const ConditionSet& set, const JointFit& fit) const;
 
  private:
   struct Tongues {
@@ -47,8 +50,14 @@ class Refinement {
 
   ModelDescription description_;
   const Observations& observations_;
-  std::map<std::map<std::string, double>, std::unique_ptr<Tongues>> tongues_;  ///< by known effects
+  std::map<std::map<ParameterName, double>, std::shared_ptr<Tongues>>
+      tongues_;  ///< by known effects
   std::map<size_t, Known> known_;
+};
+
+struct RefinedCorrections {
+  Corrections corrections;
+  Refinement refinement;  ///< that knows them
 };
 
 }  // namespace genio

@@ -78,10 +78,78 @@ std::vector<MapPatch> patches_of(const std::vector<MapPoint>& points) {
   return patches;
 }
 
+/// Covariance of a body force between nodes, of length `length` [m], for each axis alike: it acts
+/// on the volume that a node stands for.
+Matrix body_force_covariance(const HexMesh& mesh, double length) {
+  const auto n = Eigen::Index(mesh.nodes.size());
+  const Vector volume = tissue_mass(mesh, 1.0) * Vector::Ones(n);
+  Matrix field(n, n);
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (Eigen::Index b = 0; b <= a; ++b)
+      field(a, b) = field(b, a) =
+          volume[a] * volume[b] *
+          std::exp(-0.5 * (mesh.nodes[size_t(a)] - mesh.nodes[size_t(b)]).squaredNorm() /
+                   (length * length));
+  return field;
+}
+
+/// A force field as the residuals show it.
+struct SeenField {
+  Matrix kernel;               ///< covariance of all residuals, one condition's after another's
+  std::vector<Matrix> spread;  ///< of each axis: the field's covariance times the influence's
+                               ///< transpose
+};
+
+/// `field`: covariance between nodes. The field is taken to be common to all conditions.
+SeenField seen_field(const std::vector<Matrix>& influences, const Matrix& field) {
+  const auto n = field.rows();
+  Eigen::Index rows = 0;
+  for (const Matrix& a : influences) rows += a.rows();
+  Matrix all(rows, 3 * n);
+  rows = 0;
+  for (const Matrix& a : influences) all.middleRows(rows, a.rows()) = a, rows += a.rows();
+  SeenField seen{Matrix::Zero(rows, rows), {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Matrix part = all(Eigen::all, Eigen::seqN(axis, n, 3));
+    seen.spread.push_back(field * part.transpose());
+    seen.kernel += part * seen.spread.back();
+  }
+  return seen;
+}
+
+/// The part of the field's variance that residuals share: all within a condition, half between two.
+Matrix shared_part(const std::vector<Matrix>& influences, Eigen::Index rows) {
+  Matrix share = Matrix::Constant(rows, rows, 0.5);
+  Eigen::Index first = 0;
+  for (const Matrix& a : influences) {
+    share.block(first, first, a.rows(), a.rows()).setOnes();
+    first += a.rows();
+  }
+  return share;
+}
+
+struct FieldSize {
+  double variance = 0, log_evidence = 0;
+};
+
+/// The variance of the field with most evidence. `u`: whitened residuals along the eigenvectors of
+/// what is seen of a field of unit variance, `s`: its eigenvalues.
+FieldSize likeliest_size(const Vector& u, const Vector& s) {
+  FieldSize best;
+  const double unit = s.mean() > 0 ? 1 / s.mean() : 0;
+  for (double size = 1e-6 * unit; size < 1e6 * unit; size *= 1.5) {
+    const Vector v = Vector::Ones(s.size()) + size * s;
+    const double gain =
+        0.5 * (u.squaredNorm() - (u.cwiseAbs2().cwiseQuotient(v)).sum() - v.array().log().sum());
+    if (gain > best.log_evidence) best = {size, gain};
+  }
+  return best;
+}
+
 }  // namespace
 
-ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& covariance, double rate,
-                     double reach) {
+ResidualMap localise(const ConditionSet& set, const JointFit& fit, const Matrix& covariance,
+                     double rate, double reach) {
   ResidualMap map;
   map.false_discovery_rate = rate;
   const Vector r = fit.residuals();
@@ -92,12 +160,12 @@ ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& cova
   Eigen::Index row = 0;
   for (size_t k = 0; k < fit.conditions.size(); ++k) {
     const FittedCondition& c = fit.conditions[k];
-    const TongueLine line(study.model(k));
+    const TongueLine line(set.model(k));
     for (const auto& of : c.residuals.rows) {
       const double z = mean[row] / std::sqrt(std::max(1e-12, variance[row]));
       const Vec3 place = c.residuals.places[size_t(of.point)];
       map.points.push_back(
-          {study.members()[k], place, r[row] / of.scale, z, false, place_name(line, c.x, place)});
+          {set.members()[k], place, r[row] / of.scale, z, false, place_name(line, c.x, place)});
       p.push_back(2 * normal_tail(std::abs(z)));
       ++row;
     }
@@ -108,62 +176,32 @@ ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& cova
   return map;
 }
 
-HiddenForce hidden_force(const Study& study, const std::vector<Matrix>& influences,
+HiddenForce hidden_force(const ConditionSet& set, const std::vector<Matrix>& influences,
                          const Projection& projection, double length) {
-  const HexMesh& mesh = study.model(0).mesh;
+  const HexMesh& mesh = set.model(0).mesh;
   const auto n = Eigen::Index(mesh.nodes.size());
-  // A body force acts on the volume that a node stands for.
-  const Vector volume = tissue_mass(mesh, 1.0) * Vector::Ones(n);
-  Matrix field(n, n);
-  for (Eigen::Index a = 0; a < n; ++a)
-    for (Eigen::Index b = 0; b <= a; ++b)
-      field(a, b) = field(b, a) =
-          volume[a] * volume[b] *
-          std::exp(-0.5 * (mesh.nodes[size_t(a)] - mesh.nodes[size_t(b)]).squaredNorm() /
-                   (length * length));
-  Eigen::Index rows = 0;
-  for (const Matrix& a : influences) rows += a.rows();
-  Matrix all(rows, 3 * n);
-  rows = 0;
-  for (const Matrix& a : influences) all.middleRows(rows, a.rows()) = a, rows += a.rows();
-  Matrix kernel = Matrix::Zero(rows, rows);
-  std::vector<Matrix> spread;  // of each axis: field times the influence's transpose
-  for (int axis = 0; axis < 3; ++axis) {
-    const Matrix part = all(Eigen::all, Eigen::seqN(axis, n, 3));
-    spread.push_back(field * part.transpose());
-    kernel += part * spread.back();
-  }
-  Matrix share = Matrix::Constant(rows, rows, 0.5);
-  Eigen::Index first = 0;
-  for (const Matrix& a : influences) {
-    share.block(first, first, a.rows(), a.rows()).setOnes();
-    first += a.rows();
-  }
+  const auto [kernel, spread] = seen_field(influences, body_force_covariance(mesh, length));
+  const auto rows = kernel.rows();
   const Matrix w = projection(Matrix::Identity(rows, rows));
-  const Matrix seen = w * kernel.cwiseProduct(share) * w.transpose();
+  const Matrix seen = w * kernel.cwiseProduct(shared_part(influences, rows)) * w.transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (seen + seen.transpose()));
   const Vector u = eigen.eigenvectors().transpose() * projection.residuals();
   const Vector s = eigen.eigenvalues().cwiseMax(0.0);
+  const FieldSize best = likeliest_size(u, s);
   HiddenForce result;
-  double best = 0;
-  const double unit = s.mean() > 0 ? 1 / s.mean() : 0;
-  for (double size = 1e-6 * unit; size < 1e6 * unit; size *= 1.5) {
-    const Vector v = Vector::Ones(s.size()) + size * s;
-    const double gain =
-        0.5 * (u.squaredNorm() - (u.cwiseAbs2().cwiseQuotient(v)).sum() - v.array().log().sum());
-    if (gain > result.log_evidence) result.log_evidence = gain, best = size;
-  }
-  const Vector weights = eigen.eigenvectors() * u.cwiseQuotient(Vector::Ones(s.size()) + best * s);
+  result.log_evidence = best.log_evidence;
+  const Vector weights =
+      eigen.eigenvectors() * u.cwiseQuotient(Vector::Ones(s.size()) + best.variance * s);
   const Vector back = w.transpose() * weights;
   result.common = Forces::Zero(3 * n);
-  first = 0;
+  Eigen::Index first = 0;
   for (const Matrix& a : influences) {
     Vector here = 0.5 * back;
     here.segment(first, a.rows()) *= 2;
     first += a.rows();
     Forces f(3 * n);
     for (int axis = 0; axis < 3; ++axis)
-      f(Eigen::seqN(axis, n, 3)) = -best * (spread[size_t(axis)] * here);
+      f(Eigen::seqN(axis, n, 3)) = -best.variance * (spread[size_t(axis)] * here);
     result.common += f / double(influences.size());
     result.nodal.push_back(std::move(f));
   }
@@ -173,7 +211,7 @@ HiddenForce hidden_force(const Study& study, const std::vector<Matrix>& influenc
     result.centre += f.norm() * mesh.nodes[size_t(a)];
   }
   if (result.total > 0) result.centre /= result.total;
-  const Model& model = study.model(0);
+  const Model& model = set.model(0);
   result.region = place_name(TongueLine(model), model.rest, result.centre);
   return result;
 }

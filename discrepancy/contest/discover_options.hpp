@@ -1,0 +1,28 @@
+#pragma once
+#include <functional>
+#include <string>
+
+#include "discrepancy/errors/error_model.hpp"
+
+namespace genio {
+
+/// How a discovery is run.
+struct DiscoverOptions {
+  ErrorModel error_model;
+  /// Correct the shapes for the mesh's own error; false where the data are of the same mesh.
+  bool correct_mesh = true;
+  int refits = 5;        ///< candidates refitted a round
+  int most_effects = 3;  ///< rounds
+  double certain = 0.9;  ///< probability of one effect that names it
+  /// Largest probability of nothing with which a name is given: errors that go beyond the first
+  /// order count as evidence too. Set by `genio bench discover`.
+  double nothing = 1e-3;
+  double fit_level = 0.01;  ///< of the test that what is left is noise
+  std::function<void(const std::string&)> progress = {};  ///< called with a line at a time
+
+  void report_progress(const std::string& line) const {
+    if (progress) progress(line);
+  }
+};
+
+}  // namespace genio
