@@ -1,5 +1,7 @@
 #include "forward/effects/effect.hpp"
 
+#include <stdexcept>
+
 namespace genio {
 
 std::vector<const Term*> Effect::terms() const {
@@ -11,7 +13,11 @@ std::vector<const Term*> Effect::terms() const {
   return result;
 }
 
-std::string_view Effect::name() const { return terms().front()->name(); }
+std::string_view Effect::name() const {
+  const auto all = terms();
+  if (all.empty()) throw std::logic_error("an effect without any term has no name");
+  return all.front()->name();
+}
 
 std::vector<ParameterInfo> Effect::parameters() const {
   std::vector<ParameterInfo> result;

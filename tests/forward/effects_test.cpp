@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <stdexcept>
 
 #include "forward/effects/surroundings/gravity.hpp"
 #include "forward/model/build_model.hpp"
@@ -39,6 +40,8 @@ TEST(Battery, AnEffectsParametersAreThoseOfItsTermsInTheirOrder) {
             (std::vector<std::string>{"compliance_z", "stiffness_xy", "mass"}));
   EXPECT_EQ(names("activation_dynamics"), (std::vector<std::string>{"rise", "fall"}));
 }
+
+TEST(Battery, AnEffectNeedsATerm) { EXPECT_THROW(Effect{}.name(), std::logic_error); }
 
 TEST(Battery, BeliefsAreOfParametersThatTheirEffectsHave) {
   const Model m = build_model(test::with_every_effect(), "block");
