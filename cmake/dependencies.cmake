@@ -9,6 +9,7 @@ find_package(pugixml REQUIRED)
 find_package(assimp REQUIRED)
 find_package(NLopt REQUIRED)
 find_package(Threads REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers of Boost.Math
 pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
 pkg_check_modules(RSVG REQUIRED IMPORTED_TARGET librsvg-2.0)

@@ -9,9 +9,7 @@ if(GENIO_WERROR)
   # GCC 12 bug 105593 once more: Eigen's AVX-512 logarithm, so only on machines that have it.
   target_compile_options(genio_flags INTERFACE -Werror -Wno-error=uninitialized)
 endif()
-if(GENIO_NATIVE)
-  target_compile_options(genio_flags INTERFACE -march=native)
-endif()
+target_compile_options(genio_flags INTERFACE ${GENIO_ARCH_FLAG})
 if(GENIO_SANITIZE)
   target_compile_options(genio_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
                          -fno-sanitize-recover=undefined)
@@ -29,10 +27,25 @@ foreach(kind pch pch_program pch_tests)
   target_link_libraries(genio_${kind} PRIVATE genio_flags Eigen3::Eigen fmt::fmt)
   target_include_directories(genio_${kind} PRIVATE ${PROJECT_SOURCE_DIR})
   target_precompile_headers(genio_${kind} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/${kind}.hpp)
+  set_target_properties(genio_${kind} PROPERTIES UNITY_BUILD OFF)
 endforeach()
 target_link_libraries(genio_pch_program PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json)
 function(genio_precompiled target kind)
   target_precompile_headers(${target} REUSE_FROM genio_${kind})
+endfunction()
+
+# With CMAKE_UNITY_BUILD=ON (presets release and ci) the sources of a folder are compiled as one
+# file, which instantiates their templates once: genio_grouped(TARGET). So names in the anonymous
+# namespaces of one folder must differ; the compiler says where they do not.
+function(genio_grouped target)
+  get_target_property(sources ${target} SOURCES)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  foreach(source ${sources})
+    get_filename_component(folder ${source} DIRECTORY)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
 endfunction()
 
 # genio_room(forward
@@ -56,6 +69,11 @@ function(genio_room name)
                         PRIVATE ${room_PRIVATE} $<BUILD_INTERFACE:genio_flags>)
   target_compile_features(genio_${name} PUBLIC cxx_std_20)
   genio_precompiled(genio_${name} pch)
+  if(room_INTERNAL)
+    set_target_properties(genio_${name} PROPERTIES UNITY_BUILD OFF)
+  else()
+    genio_grouped(genio_${name})
+  endif()
   target_include_directories(genio_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/genio>)
   genio_describe(${name} "${room_ROOMS}" "${room_HEADERS}" "${room_PUBLIC};${room_PRIVATE}")

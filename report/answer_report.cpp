@@ -97,13 +97,7 @@ std::string to_table(const AnswerView& v) {
 
 namespace {
 
-constexpr const char *grey = "#9aa0a6", *blue = "#1f5fa8", *red = "#c8443a", *bone = "#6b5b45";
-
-std::vector<Vec2> in_mm(const std::vector<Vec2>& points) {
-  std::vector<Vec2> out;
-  for (const Vec2& p : points) out.push_back(1e3 * p);
-  return out;
-}
+constexpr const char* red = "#c8443a";
 
 void draw_plane(Svg& svg, const Model& model, const AnswerView& v) {
   const Axes axes{38, 148, 44, 134, 50, 56, 550, 450};

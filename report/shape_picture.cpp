@@ -10,8 +10,6 @@
 namespace genio {
 namespace {
 
-constexpr const char *grey = "#9aa0a6", *blue = "#1f5fa8", *bone = "#6b5b45";
-
 Axes framed(Svg& svg, Axes axes, const std::string& below) {
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
   for (double z = 60; z <= 120; z += 20) {
@@ -20,11 +18,6 @@ Axes framed(Svg& svg, Axes axes, const std::string& below) {
   }
   svg.text(axes.left + axes.width / 2, axes.top + axes.height + 20, below, 12, "middle", "#555");
   return axes;
-}
-
-std::vector<Vec2> in_mm(std::vector<Vec2> points) {
-  for (Vec2& p : points) p *= 1e3;
-  return points;
 }
 
 /// Faces of the surface that look forwards, seen from there.

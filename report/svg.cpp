@@ -20,6 +20,11 @@ std::string attributes(const Style& s) {
 
 }  // namespace
 
+std::vector<Eigen::Vector2d> in_mm(std::vector<Eigen::Vector2d> points) {
+  for (auto& p : points) p *= 1e3;
+  return points;
+}
+
 std::string escaped(const std::string& s) {
   std::string out;
   for (char c : s) {

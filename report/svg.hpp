@@ -15,6 +15,12 @@ struct Axes {
   double py(double y) const { return top + (y1 - y) / (y1 - y0) * height; }
 };
 
+/// Colours that mean the same in every picture.
+inline constexpr const char *grey = "#9aa0a6", *blue = "#1f5fa8", *bone = "#6b5b45";
+
+/// Metres to millimetres.
+std::vector<Eigen::Vector2d> in_mm(std::vector<Eigen::Vector2d> points);
+
 struct Style {
   std::string stroke = "none", fill = "none";
   double width = 1;

@@ -6,29 +6,16 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "inverse/posterior/box_gaussian.hpp"
-#include "inverse/posterior/posterior.hpp"
+#include "inverse/posterior/distributions.hpp"
 
 namespace genio {
 namespace {
 
 constexpr double invisible = 1e-3;    // whitened change at typical strength
-constexpr double nine_in_ten = 1.28;  // standard deviations
+constexpr double power = 0.9;  // of detection
 constexpr double largest_scale = 64;
-
-double normal_tail(double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); }
-
-/// z with normal_tail(z) = p.
-double normal_quantile(double p) {
-  double low = 0, high = 40;
-  for (int i = 0; i < 80; ++i) {
-    const double mid = 0.5 * (low + high);
-    (normal_tail(mid) > p ? low : high) = mid;
-  }
-  return low;
-}
 
 FreeNumber pose_number(const char* name, const char* unit, double typical) {
   FreeNumber n{name, {name}, {}};
@@ -228,7 +215,7 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
       s.direction = g * (step.isZero(0) ? Vector(Vector::Ones(count)) : step);
       s.direction.normalize();
       const double sides = side != 0 ? 1 : 2;
-      const double z = normal_quantile(level / sides / double(candidates.size())) + nine_in_ten;
+      const double z = normal_quantile(level / sides / double(candidates.size())) + normal_quantile(1 - power);
       s.detectable = z / std::sqrt(information.trace() / double(count));
     }
     result.push_back(std::move(s));

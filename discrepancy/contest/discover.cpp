@@ -10,7 +10,7 @@
 #include "discrepancy/contest/base.hpp"
 #include "discrepancy/contest/contest.hpp"
 #include "discrepancy/contest/weighing.hpp"
-#include "inverse/posterior/posterior.hpp"
+#include "inverse/posterior/distributions.hpp"
 
 namespace genio {
 namespace {

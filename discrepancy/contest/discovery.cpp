@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inverse/posterior/distributions.hpp"
+
 namespace genio {
 namespace {
 
-constexpr double ninety = 1.645;  // standard deviations to either end of a 90 % interval
+constexpr double outside = 0.05;  // probability beyond either end of a 90 % interval
 
 /// How strong an effect is, in the unit of one of its strengths: of a vector its length.
 double size_of(const Candidate& c, const std::string& unit,
@@ -100,7 +102,7 @@ Gap gap_of(const JointFit& fit, double noise) {
 }
 
 SharedEstimate doubted(SharedEstimate e, const ParameterInfo& info, double more) {
-  const double strength = info.off(e.value);
+  const double strength = info.off(e.value), ninety = normal_quantile(outside);
   double below = std::hypot(strength - info.off(e.low), ninety * more);
   double above = std::hypot(info.off(e.high) - strength, ninety * more);
   const auto skewed = [&](double& away) {

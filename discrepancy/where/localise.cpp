@@ -4,8 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+
+#include "inverse/posterior/distributions.hpp"
 
 namespace genio {
 namespace {
@@ -97,7 +98,7 @@ ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& cova
       const Vec3 place = c.residuals.places[size_t(of.point)];
       map.points.push_back(
           {study.members()[k], place, r[row] / of.scale, z, false, place_name(line, c.x, place)});
-      p.push_back(std::erfc(std::abs(z) / std::numbers::sqrt2));
+      p.push_back(2 * normal_tail(std::abs(z)));
       ++row;
     }
   }

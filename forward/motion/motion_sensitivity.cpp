@@ -8,7 +8,7 @@
 namespace genio {
 namespace {
 
-constexpr int most_iterations = 30;
+constexpr int most_corrections = 30;
 constexpr double contraction = 0.1;  // of an iteration, at least
 
 Matrix times(const NodeMatrix& mass, const Matrix& nodal) {
@@ -105,7 +105,7 @@ bool Differentiation::advance(const Instant& from, const Instant& to, Eigen::Ind
   if (!ws_.cholesky.factorize(ws_.reduced)) return false;
 
   Matrix u = u0 + dt * v0;  // a guess for what viscous forces add
-  for (int i = 0; i < most_iterations; ++i) {
+  for (int i = 0; i < most_corrections; ++i) {
     const Matrix right = known + viscous_slope(model_, x, v, p, f * u + s_.alpha_f * u0, scratch_);
     const Matrix next =
         expand_columns(model_.dofs, ws_.cholesky.solve(reduce_columns(model_.dofs, right)) / f);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "inverse/posterior/box_integral.hpp"
+#include "inverse/posterior/distributions.hpp"
 #include "inverse/target/comparison.hpp"
 
 namespace genio {
@@ -90,12 +91,6 @@ std::vector<TradeOff> unseen_directions(const Matrix& jacobian, const Matrix& pr
       groups.push_back(group);
   }
   return groups;
-}
-
-double chi_square_tail(double chi2, double dof) {
-  const double v = 2 / (9 * dof);
-  const double z = (std::cbrt(chi2 / dof) - (1 - v)) / std::sqrt(v);
-  return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
 FitTest test_fit(const Vector& r, const Matrix& scatter, double used, double gain) {

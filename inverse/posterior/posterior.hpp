@@ -35,10 +35,6 @@ struct MarginalSummary {
 };
 MarginalSummary summarise(Vector samples, double mode, double lower, double upper);
 
-/// Probability that a chi-square variable with `dof` degrees of freedom exceeds `chi2` (Wilson &
-/// Hilferty 1931, accurate to 1e-3 for dof >= 3).
-double chi_square_tail(double chi2, double dof);
-
 /// The chi-square test of a fit, and what it means.
 struct FitTest {
   double chi2_per_dof, tail;

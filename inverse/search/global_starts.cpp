@@ -10,7 +10,7 @@ namespace genio {
 namespace {
 
 constexpr int evaluations = 600;
-constexpr double apart = 0.05;  // of an unknown, between distinct valleys
+constexpr double valleys_apart = 0.05;  // of an unknown, between distinct valleys
 constexpr double reach = 0.6;   // activation: beyond it the stand-in knows nothing
 
 struct Found {
@@ -149,7 +149,7 @@ std::vector<Atlas::Entry> valleys(const Atlas& atlas, const Comparison& comparis
   for (const Found& f : seen) {
     if (int(result.size()) == count) break;
     if (std::all_of(result.begin(), result.end(), [&](const Atlas::Entry& e) {
-          return (e.unknowns - f.z).cwiseAbs().maxCoeff() > apart;
+          return (e.unknowns - f.z).cwiseAbs().maxCoeff() > valleys_apart;
         }))
       result.push_back({f.z, shape(f.z), {}});
   }

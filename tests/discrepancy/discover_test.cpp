@@ -8,6 +8,7 @@
 
 #include "discrepancy/contest/weighing.hpp"
 #include "forward/model/build_model.hpp"
+#include "inverse/posterior/distributions.hpp"
 #include "tests/discrepancy/posed_tongue.hpp"
 
 namespace genio {
@@ -69,13 +70,14 @@ ParameterInfo between(double lower, double upper) {
 }
 
 TEST(Intervals, AreAsWideAsTheEffectsOwnDoubtMakesThem) {
-  const SharedEstimate fitted{"e.v", "N", 10, 1, 10 - 1.645, 10 + 1.645};
+  const double ninety = normal_quantile(0.05);
+  const SharedEstimate fitted{"e.v", "N", 10, 1, 10 - ninety, 10 + ninety};
   const SharedEstimate same = doubted(fitted, between(-100, 100), 0);
   EXPECT_DOUBLE_EQ(same.low, fitted.low);
   EXPECT_DOUBLE_EQ(same.high, fitted.high);
   const SharedEstimate wider = doubted(fitted, between(-100, 100), 1);
   EXPECT_NEAR(wider.sd, std::sqrt(2), 1e-12);
-  EXPECT_NEAR(wider.high - 10, 1.645 * std::sqrt(2), 1e-12);
+  EXPECT_NEAR(wider.high - 10, ninety * std::sqrt(2), 1e-12);
   EXPECT_NEAR(10 - wider.low, wider.high - 10, 1e-12);
   EXPECT_EQ(doubted(fitted, between(9, 10.5), 1).low, 9);
 }

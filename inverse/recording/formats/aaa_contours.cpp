@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <regex>
 
 #include "inverse/recording/formats/contour_formats.hpp"
@@ -13,14 +12,14 @@ namespace {
 constexpr double longest_gap = 12;  // between neighbouring knots of one contour [mm]
 
 /// Where things stand in a row.
-struct Layout {
+struct AaaLayout {
   std::vector<std::pair<size_t, size_t>> knots;  // columns of x and y
   size_t label = 3, time = 1;
 };
 
 /// Columns "X0 Tongue", "Y0 Tongue", ... of the first spline named in a header.
-Layout from_header(const std::vector<std::string>& header, const TableLines& lines) {
-  Layout layout;
+AaaLayout from_header(const std::vector<std::string>& header, const TableLines& lines) {
+  AaaLayout layout;
   const std::regex knot(R"(^([XY])(\d+)\s+(.*)$)");
   std::string spline;
   std::smatch m, my;
@@ -38,8 +37,8 @@ Layout from_header(const std::vector<std::string>& header, const TableLines& lin
 }
 
 /// Without a header: 11 or 14 columns before the knots, told apart by their number.
-Layout without_header(size_t fields, const TableLines& lines) {
-  Layout layout;
+AaaLayout without_header(size_t fields, const TableLines& lines) {
+  AaaLayout layout;
   size_t meta = 0;
   for (size_t m : {size_t(14), size_t(11)})
     if (fields == m + 84) meta = m;
@@ -72,7 +71,7 @@ RawContours read_aaa_contours(const std::string& path) {
   ContourFile& file = raw.file;
   file.format = ContourFormat::aaa;
   file.model_frame = false;
-  Layout layout;
+  AaaLayout layout;
   size_t columns = 0;
   int row = 0;
   for (std::string line; lines.next(line);) {
@@ -102,7 +101,7 @@ RawContours read_aaa_contours(const std::string& path) {
         lines.fail(
             fmt::format("knot {}: '{}', '{}'; expected two finite numbers or '*'", k, tx, ty));
       ContourPoint p;
-      p.position = {x, std::numeric_limits<double>::quiet_NaN(), y};
+      p.position = {x, not_given, y};
       p.kind = "curve";
       frame.points.push_back(std::move(p));
     }
