@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <regex>
 
 #include "inverse/recording/formats/contour_formats.hpp"
@@ -12,14 +13,14 @@ namespace {
 constexpr double longest_gap = 12;  // between neighbouring knots of one contour [mm]
 
 /// Where things stand in a row.
-struct AaaLayout {
+struct Layout {
   std::vector<std::pair<size_t, size_t>> knots;  // columns of x and y
   size_t label = 3, time = 1;
 };
 
 /// Columns "X0 Tongue", "Y0 Tongue", ... of the first spline named in a header.
-AaaLayout from_header(const std::vector<std::string>& header, const TableLines& lines) {
-  AaaLayout layout;
+Layout from_header(const std::vector<std::string>& header, const TableLines& lines) {
+  Layout layout;
   const std::regex knot(R"(^([XY])(\d+)\s+(.*)$)");
   std::string spline;
   std::smatch m, my;
@@ -37,8 +38,8 @@ AaaLayout from_header(const std::vector<std::string>& header, const TableLines& 
 }
 
 /// Without a header: 11 or 14 columns before the knots, told apart by their number.
-AaaLayout without_header(size_t fields, const TableLines& lines) {
-  AaaLayout layout;
+Layout without_header(size_t fields, const TableLines& lines) {
+  Layout layout;
   size_t meta = 0;
   for (size_t m : {size_t(14), size_t(11)})
     if (fields == m + 84) meta = m;
@@ -71,7 +72,7 @@ RawContours read_aaa_contours(const std::string& path) {
   ContourFile& file = raw.file;
   file.format = ContourFormat::aaa;
   file.model_frame = false;
-  AaaLayout layout;
+  Layout layout;
   size_t columns = 0;
   int row = 0;
   for (std::string line; lines.next(line);) {
@@ -101,7 +102,7 @@ RawContours read_aaa_contours(const std::string& path) {
         lines.fail(
             fmt::format("knot {}: '{}', '{}'; expected two finite numbers or '*'", k, tx, ty));
       ContourPoint p;
-      p.position = {x, not_given, y};
+      p.position = {x, std::numeric_limits<double>::quiet_NaN(), y};
       p.kind = "curve";
       frame.points.push_back(std::move(p));
     }

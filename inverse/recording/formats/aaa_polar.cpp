@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "inverse/recording/formats/contour_formats.hpp"
@@ -13,13 +14,13 @@ constexpr const char* count_title = "Number of points of spline";
 
 /// Columns of a row whose spline begins at field `first` with its number of points N: then N radii
 /// and N angles. The header has one title a block.
-struct PolarLayout {
+struct Layout {
   size_t first = 0, label = 0, time = 0;
   bool has_label = false, has_time = false;
 };
 
-PolarLayout polar_layout(const std::vector<std::string>& titles, const TableLines& lines) {
-  PolarLayout l;
+Layout layout_of(const std::vector<std::string>& titles, const TableLines& lines) {
+  Layout l;
   bool found = false;
   for (size_t c = 0; c < titles.size() && !found; ++c) {
     const std::string t = trimmed(titles[c]);
@@ -39,7 +40,7 @@ RawContours read_aaa_polar(const std::string& path) {
   raw.file.format = ContourFormat::aaa, raw.file.model_frame = false;
   std::string line;
   if (!lines.next(line)) lines.fail("the file is empty");
-  const PolarLayout l = polar_layout(split_fields(line, '\t'), lines);
+  const Layout l = layout_of(split_fields(line, '\t'), lines);
   while (lines.next(line)) {
     if (trimmed(line).empty()) continue;
     const auto fields = split_fields(line, '\t');
@@ -65,7 +66,10 @@ RawContours read_aaa_polar(const std::string& path) {
                                radius, angle));
       if (std::abs(a) > 2 * std::numbers::pi)
         lines.fail(fmt::format("knot {}: angle {}; expected radians", k, a));
-      frame.points.push_back({{r * std::sin(a), not_given, r * std::cos(a)}, 0, "curve"});
+      frame.points.push_back(
+          {{r * std::sin(a), std::numeric_limits<double>::quiet_NaN(), r * std::cos(a)},
+           0,
+           "curve"});
     }
     if (frame.points.empty()) frame.note = "the frame is empty (no knot has a value)";
     raw.file.frames.push_back(std::move(frame));

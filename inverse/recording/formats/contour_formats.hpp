@@ -1,12 +1,7 @@
 #pragma once
-#include <limits>
-
 #include "inverse/recording/contour_file.hpp"
 
 namespace genio {
-
-/// A coordinate that the file does not give, as that across a midsagittal plane.
-inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 /// What a format says of its axes; empty where it says nothing.
 struct FileAxes {

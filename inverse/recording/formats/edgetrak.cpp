@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "inverse/recording/formats/contour_formats.hpp"
 #include "inverse/recording/table_text.hpp"
 
 namespace genio {
 namespace {
+
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 /// Fields of a row by its separator, an empty one at the end dropped: tab or comma.
 std::vector<std::string> fields_of(const std::string& line, char separator) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "inverse/recording/formats/contour_formats.hpp"
@@ -9,20 +10,22 @@
 namespace genio {
 namespace {
 
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
 /// Where the numbers of a row stand. Long tables have one knot a row, wide ones all of a frame.
-struct KnotLayout {
+struct Layout {
   size_t frame = 0, time = 0, note = 0;
   bool has_note = false;
   std::vector<std::pair<size_t, size_t>> knots;
   bool wide = false, millimetres = false;
 };
 
-KnotLayout knot_layout(const std::vector<std::string>& header, const TableLines& lines) {
+Layout layout_of(const std::vector<std::string>& header, const TableLines& lines) {
   std::map<std::string, size_t> at;
   for (size_t c = 0; c < header.size(); ++c) at.emplace(trimmed(header[c]), c);
   for (const char* needed : {"FRAME", "TIME"})
     if (!at.contains(needed)) lines.fail(fmt::format("column {} is missing", needed));
-  KnotLayout l;
+  Layout l;
   l.frame = at["FRAME"], l.time = at["TIME"];
   if (at.contains("NOTE")) l.note = at["NOTE"], l.has_note = true;
   const auto pair = [&](const std::string& x, const std::string& y) {
@@ -48,7 +51,7 @@ RawContours read_getcontours(const std::string& path) {
   std::string line;
   if (!lines.next(line)) lines.fail("the file is empty; expected a header line");
   const auto header = split_fields(line, '\t');
-  const KnotLayout l = knot_layout(header, lines);
+  const Layout l = layout_of(header, lines);
   RawContours raw{{}, {l.millimetres ? "mm" : "px", "", l.millimetres ? "" : "down"}};
   raw.file.format = ContourFormat::getcontours, raw.file.model_frame = false;
   std::map<int, size_t> index;
