@@ -35,28 +35,35 @@ function(genio_precompiled target kind)
 endfunction()
 
 # With CMAKE_UNITY_BUILD=ON (presets release and ci) the sources of a folder are compiled as one
-# file, which instantiates their templates once: genio_grouped(TARGET). So names in the anonymous
-# namespaces of one folder must differ; the compiler says where they do not.
+# file, which instantiates their templates once: genio_grouped(TARGET [SINGLE_FOLDER ...]). So names
+# in the anonymous namespaces of one folder must differ; the compiler says where they do not. Folders
+# whose files are alike by design, as readers of formats, are named and compiled file by file.
 function(genio_grouped target)
   get_target_property(sources ${target} SOURCES)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   foreach(source ${sources})
     get_filename_component(folder ${source} DIRECTORY)
+    file(RELATIVE_PATH sub ${CMAKE_CURRENT_SOURCE_DIR} ${folder})
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
-    string(MAKE_C_IDENTIFIER "${folder}" group)
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    if(sub IN_LIST ARGN)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    else()
+      string(MAKE_C_IDENTIFIER "${folder}" group)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    endif()
   endforeach()
 endfunction()
 
 # genio_room(forward
 #   ROOMS base geometry ...       sub-rooms, lowest first: a file may include its own and lower ones
 #   HEADERS base/types ...        what other rooms may include; these are installed
+#   SINGLY recording/formats ...  sub-rooms whose files define alike names (genio_grouped)
 #   PUBLIC ... PRIVATE ...        libraries and rooms it links
 #   INTERNAL)                     not installed
 # Sources are every .cpp of the sub-rooms (of the room's own folder where there are none), so that a
 # new file needs no line here. check_rooms.py holds the includes against what is said here.
 function(genio_room name)
-  cmake_parse_arguments(room "INTERNAL" "" "ROOMS;HEADERS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(room "INTERNAL" "" "ROOMS;HEADERS;SINGLY;PUBLIC;PRIVATE" ${ARGN})
   set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   foreach(sub ${room_ROOMS})
     list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${sub}/*.cpp)
@@ -69,11 +76,7 @@ function(genio_room name)
                         PRIVATE ${room_PRIVATE} $<BUILD_INTERFACE:genio_flags>)
   target_compile_features(genio_${name} PUBLIC cxx_std_20)
   genio_precompiled(genio_${name} pch)
-  if(room_INTERNAL)
-    set_target_properties(genio_${name} PROPERTIES UNITY_BUILD OFF)
-  else()
-    genio_grouped(genio_${name})
-  endif()
+  genio_grouped(genio_${name} ${room_SINGLY})
   target_include_directories(genio_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/genio>)
   genio_describe(${name} "${room_ROOMS}" "${room_HEADERS}" "${room_PUBLIC};${room_PRIVATE}")

@@ -3,7 +3,7 @@
 namespace genio {
 
 HexMesh box_mesh(const Vec3& size, const std::array<int, 3>& cells) {
-  const auto [nx, ny, nz] = cells;
+  const int nx = cells[0], ny = cells[1], nz = cells[2];
   const auto node = [&](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
   HexMesh mesh;
   for (int k = 0; k <= nz; ++k)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int evaluations = 600;
 constexpr double valleys_apart = 0.05;  // of an unknown, between distinct valleys
-constexpr double reach = 0.6;   // activation: beyond it the stand-in knows nothing
+constexpr double reach = 0.6;           // activation: beyond it the stand-in knows nothing
 
 struct Found {
   double value;
