@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "inverse/recording/formats/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
 
 namespace genio::cli {
@@ -39,6 +40,11 @@ std::map<std::string, std::string> parsed_sensors(const std::vector<std::string>
   return result;
 }
 
+/// True where that format's files hold sensors: a palate trace beside them is of another.
+bool names_sensors(const std::string& format) {
+  return format != "auto" && format_named(format).traits.content == Content::sensors;
+}
+
 RegisteredFile registered_by(const Model& model, ContourFile file, const MeasuredOptions& o) {
   if (o.palate.empty())
     throw InputError(fmt::format(
@@ -48,7 +54,7 @@ RegisteredFile registered_by(const Model& model, ContourFile file, const Measure
   ReadOptions palate = o.read;
   palate.sensors.clear();
   if (!o.palate_sensor.empty()) palate.sensors[o.palate_sensor] = "palate";
-  palate.format = o.palate_sensor.empty() && o.read.format == "ema" ? "auto" : o.read.format;
+  if (o.palate_sensor.empty() && names_sensors(o.read.format)) palate.format = "auto";
   RegisteredFile result = register_file(model, std::move(file), o.palate, palate);
   const Registration& r = result.registration;
   result.file.remarks.push_back(fmt::format(
@@ -60,12 +66,20 @@ RegisteredFile registered_by(const Model& model, ContourFile file, const Measure
   return result;
 }
 
+/// "ema 0.5, surface 1, ...": what is assumed of each format [mm].
+std::string usual_noises() {
+  std::string list;
+  for (const ContourFormat& format : contour_formats())
+    list += fmt::format("{}{} {:g}", list.empty() ? "" : ", ", format.traits.name,
+                        1e3 * format.traits.noise);
+  return list;
+}
+
 }  // namespace
 
 void add_measured_options(CLI::App& app, MeasuredOptions& o) {
   app.add_option("--target", o.target, "Contour file");
-  app.add_option("--format", o.read.format,
-                 "auto, csv, aaa, getcontours, edgetrak, ema or surface");
+  app.add_option("--format", o.read.format, format_choices());
   app.add_option("--units", o.read.units, "mm, cm, m, um or px, where the file does not say");
   app.add_option("--mm-per-px", o.read.mm_per_px, "Size of a pixel")->check(CLI::PositiveNumber);
   app.add_option("--facing", o.read.facing, "Where the face looks in the file: left or right");
@@ -79,9 +93,8 @@ void add_measured_options(CLI::App& app, MeasuredOptions& o) {
                  "EMA: the sensor swept along the palate there");
   app.add_flag("--registered", o.registered, "The file is in the model's frame already");
   app.add_option("--frames", o.frames, "A-B, counted from 1");
-  app.add_option(
-      "--noise-mm", o.noise_mm,
-      "Measurement noise (default 0.5 for CSV and EMA, 1 for scans, 1.5 for ultrasound)");
+  app.add_option("--noise-mm", o.noise_mm,
+                 fmt::format("Measurement noise (by the format: {})", usual_noises()));
 }
 
 Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model) {
@@ -100,7 +113,7 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
     throw InputError(o.target + ": does not say which way the face looks; give --facing");
   }
   for (const std::string& remark : file.remarks) fmt::print(stderr, "{}: {}\n", o.target, remark);
-  m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : default_noise(file.format);
+  m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : file.format.noise;
   for (const ContourFrame& frame : file.frames)
     if (frame.number >= first && frame.number <= last)
       m.frames.push_back(transform ? registered(model(), frame, *transform) : frame);

@@ -92,8 +92,8 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
       throw InputError("bilateral must be -1, 0 or 1");
     if (request.starts < 0 || request.starts > most_starts)
       throw InputError(fmt::format("starts must be 0 to {}", most_starts));
-    const double noise = request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm
-                                                      : default_noise(ContourFormat::csv);
+    const double noise =
+        request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm : point_noise;
     const Target target = make_target(model, frame_of(request), noise);
     InferOptions options;
     options.deadline_s = request.deadline_s;

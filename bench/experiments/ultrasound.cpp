@@ -61,7 +61,7 @@ Json ultrasound(const Model& m, const std::string& contours, const std::string& 
   InferOptions infer;
   for (const ContourFrame* frame : all ? every_frame(file) : middle_frames(file)) {
     if (!all) infer = {};
-    Json j = answer_frame(m, *frame, r.transform, default_noise(file.format), ws, infer);
+    Json j = answer_frame(m, *frame, r.transform, file.format.noise, ws, infer);
     ++verdicts[j["status"] == "converged" ? j["verdict"].get<std::string>() : "no answer"];
     if (progress)
       progress(fmt::format("{:>5}  {:<28} {:<10} {:<12} {:5.2f} mm {:6.2f} s  {}", frame->number,

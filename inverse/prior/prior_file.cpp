@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "forward/base/toml_reader.hpp"
-#include "inverse/recording/table_text.hpp"
+#include "inverse/recording/base/table_text.hpp"
 
 namespace genio {
 namespace {

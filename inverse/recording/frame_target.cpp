@@ -7,6 +7,8 @@
 
 #include "forward/base/nearest_name.hpp"
 #include "forward/effects/surroundings/contact.hpp"
+#include "inverse/recording/base/file_axes.hpp"
+#include "inverse/recording/contour_file.hpp"
 #include "inverse/target/tissue_point.hpp"
 
 namespace genio {
@@ -113,7 +115,8 @@ RegisteredFile register_file(const Model& model, ContourFile file, const std::st
   std::vector<Vec2> palate;
   for (const auto& line : midsagittal_points(palate_file)) {
     palate.insert(palate.end(), line.begin(), line.end());
-    if (palate_file.format != ContourFormat::ema) break;  // a trace is one frame, a sweep all
+    // A trace is one frame; the sweep of a sensor is all of them.
+    if (palate_file.format.content != Content::sensors) break;
   }
   if (palate.empty()) throw InputError(palate_path + ": no palate point has a value");
   Registration as_is = register_by_palate(model, palate, midsagittal_points(file));
@@ -142,19 +145,6 @@ std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {
     if (!line.empty()) result.push_back(std::move(line));
   }
   return result;
-}
-
-double default_noise(ContourFormat format) {
-  switch (format) {
-    case ContourFormat::aaa:
-    case ContourFormat::getcontours:
-    case ContourFormat::edgetrak:
-      return 1.5e-3;
-    case ContourFormat::surface:
-      return 1e-3;
-    default:
-      return 0.5e-3;
-  }
 }
 
 }  // namespace genio

@@ -33,8 +33,4 @@ RegisteredFile register_file(const Model& model, ContourFile file, const std::st
 /// file's frame.
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);
 
-/// What one assumes of a format when nobody says [m]: 0.5 mm for CSV and EMA, 1 mm for scans, 1.5
-/// mm for ultrasound.
-double default_noise(ContourFormat format);
-
 }  // namespace genio

@@ -71,7 +71,7 @@ TEST_F(ContourFiles, CsvErrorsNameLineAndField) {
 
 TEST_F(ContourFiles, AaaWithoutHeaderKeepsEmptyRowsAndCrLf) {
   const auto f = read_contours(write(aaa_row(42, "\r\n") + aaa_row(42, "\r\n", 0, 0)));
-  EXPECT_EQ(f.format, ContourFormat::aaa);
+  EXPECT_EQ(f.format.name, "aaa");
   EXPECT_FALSE(f.model_frame);
   ASSERT_EQ(f.frames.size(), 2u);
   EXPECT_EQ(f.frames[0].points.size(), 20u);

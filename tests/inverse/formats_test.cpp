@@ -8,9 +8,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "forward/geometry/triangle_surface.hpp"
 #include "forward/model/build_model.hpp"
+#include "inverse/recording/contour_file.hpp"
+#include "inverse/recording/formats/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "tests/forward/small_model.hpp"
 
@@ -186,7 +189,7 @@ TEST_F(Formats, EmaAg501Pos) {
     EXPECT_TRUE(std::isnan(p.position[1]));
   }
   EXPECT_TRUE(says(f, "face looks right (the tip is there)"));
-  EXPECT_EQ(f.format, ContourFormat::ema);
+  EXPECT_EQ(f.format.name, "ema");
   o.sensors = {{"9", "tip"}};
   EXPECT_NE(error(path, o).find("9=tip"), std::string::npos);
   write("short.pos", header + ema_bytes(4) + "x");
@@ -251,6 +254,42 @@ TEST_F(Formats, ScansInMillimetresAndMetres) {
     for (const auto& p : f.frames[0].points) low = std::min(low, p.position[0]);
     EXPECT_NEAR(low, 0.055, 1e-6);
   }
+}
+
+TEST_F(Formats, EveryFormatReadsItsOwnExampleAndKnowsIt) {
+  std::set<std::string> names;
+  for (const ContourFormat& format : contour_formats()) {
+    SCOPED_TRACE(format.traits.name);
+    EXPECT_TRUE(names.insert(format.traits.name).second);
+    EXPECT_FALSE(format.about.empty());
+    EXPECT_GT(format.traits.noise, 0);
+    const auto path = write(format.example.name, format.example.text);
+    EXPECT_EQ(&format_of(path), &format);
+    EXPECT_EQ(&format_named(format.traits.name), &format);
+    EXPECT_NE(format_choices().find(format.traits.name), std::string::npos);
+    const auto found = read_contours(path, format.example.options);
+    EXPECT_EQ(found.format.name, format.traits.name);
+    EXPECT_EQ(found.format.content, format.traits.content);
+    ASSERT_FALSE(found.frames.empty());
+    EXPECT_FALSE(found.frames.front().points.empty());
+    ReadOptions named = format.example.options;
+    named.format = format.traits.name;
+    EXPECT_EQ(read_contours(path, named).remarks, found.remarks);
+  }
+}
+
+TEST_F(Formats, AnUnknownNameSuggestsTheNearest) {
+  ReadOptions o;
+  o.format = "egdetrak";
+  const std::string said = error(write("p.csv", "1,2\n"), o);
+  EXPECT_NE(said.find("--format egdetrak: unknown; did you mean edgetrak?"), std::string::npos);
+  EXPECT_NE(said.find("or csv"), std::string::npos);
+}
+
+TEST_F(Formats, AFileThatNoFormatKnowsIsAskedAbout) {
+  EXPECT_NE(error(write("x.txt", "\nwords\n")).find("x.txt:2: neither tab-separated"),
+            std::string::npos);
+  EXPECT_NE(error((folder / "absent.txt").string()).find("no such file"), std::string::npos);
 }
 
 TEST_F(Formats, AFileOfNobodysSizeIsAskedAbout) {

@@ -1,11 +1,12 @@
+#include "inverse/recording/formats/aaa_polar.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "inverse/recording/formats/contour_formats.hpp"
-#include "inverse/recording/table_text.hpp"
+#include "inverse/recording/base/table_text.hpp"
 
 namespace genio {
 namespace {
@@ -36,8 +37,8 @@ Layout layout_of(const std::vector<std::string>& titles, const TableLines& lines
 
 RawContours read_aaa_polar(const std::string& path) {
   TableLines lines(path);
-  RawContours raw{{}, {"mm", "right", "up"}};
-  raw.file.format = ContourFormat::aaa, raw.file.model_frame = false;
+  RawContours raw{{}, FileAxes{"mm", "right", "up"}};
+  raw.file.model_frame = false;
   std::string line;
   if (!lines.next(line)) lines.fail("the file is empty");
   const Layout l = layout_of(split_fields(line, '\t'), lines);
@@ -76,6 +77,12 @@ RawContours read_aaa_polar(const std::string& path) {
   }
   if (raw.file.frames.empty()) lines.fail("the file has no data row");
   return raw;
+}
+
+bool has_polar_blocks(const std::string& path) {
+  TableLines lines(path);
+  std::string first;
+  return lines.next(first) && first.find(count_title) != std::string::npos;
 }
 
 }  // namespace genio

@@ -1,10 +1,11 @@
+#include "inverse/recording/formats/edgetrak.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
-#include "inverse/recording/formats/contour_formats.hpp"
-#include "inverse/recording/table_text.hpp"
+#include "inverse/recording/base/table_text.hpp"
 
 namespace genio {
 namespace {
@@ -26,14 +27,10 @@ int frame_number(std::string text) {
   return parse_number(text, n) && n == std::floor(n) && n > 0 && n < 1e9 ? int(n) : 0;
 }
 
-}  // namespace
-
-/// A row a point, a pair of columns a frame: EdgeTrak's .con without a header, GetContours' table
-/// for EdgeTrak with two, and plain tables separated by commas.
-RawContours read_edgetrak(const std::string& path) {
+RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
-  RawContours raw{{}, {"", "", ""}};
-  raw.file.format = ContourFormat::edgetrak, raw.file.model_frame = false;
+  RawContours raw{{}, FileAxes{}};
+  raw.file.model_frame = false;
   auto& frames = raw.file.frames;
   std::vector<int> numbers;
   char separator = 0;
@@ -74,6 +71,29 @@ RawContours read_edgetrak(const std::string& path) {
   }
   if (frames.empty()) lines.fail("the file has no point");
   return raw;
+}
+
+/// Tables separated by commas whose first field is a number have no header.
+bool known_by_line(const FileStart& start) {
+  const std::string& line = start.line;
+  if (line.starts_with("FRAME") || start.ending == ".con") return true;
+  double first = 0;
+  return line.find('\t') == std::string::npos && line.find("frame") == std::string::npos &&
+         line.find(',') != std::string::npos &&
+         parse_number(split_fields(line, ',').front(), first);
+}
+
+}  // namespace
+
+ContourFormat edgetrak_format() {
+  return {.traits = {.name = "edgetrak", .noise = ultrasound_noise},
+          .about = ".con and _EdgeTrak.tsv files, and plain tables of x, y columns",
+          .known_by_bytes = {},
+          .known_by_line = known_by_line,
+          .read = read,
+          .example = {.name = "word.con",
+                      .text = "55\t95\t55\t96\n75\t110\t75\t111\n95\t115\t95\t116\n",
+                      .options = {}}};
 }
 
 }  // namespace genio

@@ -1,3 +1,5 @@
+#include "inverse/recording/formats/ema.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,8 +9,9 @@
 #include <fstream>
 #include <limits>
 
-#include "inverse/recording/formats/contour_formats.hpp"
-#include "inverse/recording/table_text.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/formats/sensor_frames.hpp"
+#include "inverse/recording/formats/ssff.hpp"
 
 namespace genio {
 namespace {
@@ -103,10 +106,9 @@ SensorTable read_text(const std::string& path) {
   return table;
 }
 
-}  // namespace
-
-RawContours read_ema(const std::string& path, const ReadOptions& o) {
+RawContours read(const std::string& path, const ReadOptions& o) {
   const std::string bytes = whole_file(path);
+  if (bytes.starts_with("SSFF")) return read_ssff(path, o);
   if (bytes.starts_with("AG50x")) return sensor_frames(path, read_ag501(bytes, path), o);
   // Floats hold bytes that no text has.
   const std::string start = bytes.substr(0, 200);
@@ -115,6 +117,28 @@ RawContours read_ema(const std::string& path, const ReadOptions& o) {
   });
   if (text) return sensor_frames(path, read_text(path), o);
   return sensor_frames(path, samples(bytes, 0, ag500_channels, ag500_rate, path), o);
+}
+
+bool known_by_bytes(const FileStart& start) {
+  return start.bytes == "SSFF" || start.bytes == "AG50" || start.ending == ".pos";
+}
+
+bool known_by_line(const FileStart& start) { return start.line.find("Ch1_X") != std::string::npos; }
+
+}  // namespace
+
+ContourFormat ema_format() {
+  ReadOptions sensors;
+  sensors.sensors = {{"1", "tip"}};
+  return {.traits = {.name = "ema", .content = Content::sensors},
+          .about = "AG500 and AG501 .pos, AG501 text, SSFF",
+          .known_by_bytes = known_by_bytes,
+          .known_by_line = known_by_line,
+          .read = read,
+          .example = {.name = "sweep.txt",
+                      .text = "Ch1_X\tCh1_Y\tCh1_Z\tCh1_phi\tCh1_theta\tCh1_RMS\tCh1_Extra\n"
+                              "12.5\t1\t-3.25\t0\t0\t0\t0\n",
+                      .options = sensors}};
 }
 
 }  // namespace genio

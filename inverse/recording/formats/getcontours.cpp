@@ -1,11 +1,12 @@
+#include "inverse/recording/formats/getcontours.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 #include <map>
 
-#include "inverse/recording/formats/contour_formats.hpp"
-#include "inverse/recording/table_text.hpp"
+#include "inverse/recording/base/table_text.hpp"
 
 namespace genio {
 namespace {
@@ -44,16 +45,14 @@ Layout layout_of(const std::vector<std::string>& header, const TableLines& lines
   return l;
 }
 
-}  // namespace
-
-RawContours read_getcontours(const std::string& path) {
+RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
   std::string line;
   if (!lines.next(line)) lines.fail("the file is empty; expected a header line");
   const auto header = split_fields(line, '\t');
   const Layout l = layout_of(header, lines);
-  RawContours raw{{}, {l.millimetres ? "mm" : "px", "", l.millimetres ? "" : "down"}};
-  raw.file.format = ContourFormat::getcontours, raw.file.model_frame = false;
+  RawContours raw{{}, FileAxes{l.millimetres ? "mm" : "px", "", l.millimetres ? "" : "down"}};
+  raw.file.model_frame = false;
   std::map<int, size_t> index;
   while (lines.next(line)) {
     if (trimmed(line).empty()) continue;
@@ -83,6 +82,24 @@ RawContours read_getcontours(const std::string& path) {
   }
   if (raw.file.frames.empty()) lines.fail("the file has a header but no point");
   return raw;
+}
+
+bool known_by_line(const FileStart& start) { return start.line.starts_with("FRAME\tTIME"); }
+
+}  // namespace
+
+ContourFormat getcontours_format() {
+  ReadOptions pixels;
+  pixels.mm_per_px = 0.2;
+  return {.traits = {.name = "getcontours", .noise = ultrasound_noise},
+          .about = "tables of GetContours, long or wide, in mm or pixels",
+          .known_by_bytes = {},
+          .known_by_line = known_by_line,
+          .read = read,
+          .example = {.name = "word.tsv",
+                      .text = "FRAME\tTIME\tNOTE\tPOINT\tX\tY\n7\t0.1\tword\t1\t275\t475\n"
+                              "7\t0.1\tword\t2\t375\t400\n7\t0.1\tword\t3\t475\t375\n",
+                      .options = pixels}};
 }
 
 }  // namespace genio

@@ -1,21 +1,19 @@
+#include "inverse/recording/formats/scan.hpp"
+
 #include <fmt/format.h>
 
 #include "forward/geometry/triangle_surface.hpp"
-#include "inverse/recording/formats/contour_formats.hpp"
 
 namespace genio {
 namespace {
 
 constexpr size_t enough = 400;  // points of a scan
 
-}  // namespace
-
 /// The vertices of a surface, at most some hundreds of them evenly through the file: neighbours
 /// say nearly the same.
-RawContours read_scan(const std::string& path) {
+RawContours read(const std::string& path, const ReadOptions&) {
   const TriangleSurface scan = read_surface(path);
-  RawContours raw{{}, {"", "left", "up"}};
-  raw.file.format = ContourFormat::surface;
+  RawContours raw{{}, FileAxes{"", "left", "up"}};
   ContourFrame& frame = raw.file.frames.emplace_back();
   frame.number = 1;
   const size_t stride = (scan.vertices.size() + enough - 1) / enough;
@@ -26,6 +24,24 @@ RawContours read_scan(const std::string& path) {
                   "tongue's surface in the model's frame",
                   frame.points.size(), scan.vertices.size()));
   return raw;
+}
+
+bool known_by_bytes(const FileStart& start) {
+  return start.ending == ".ply" || start.ending == ".obj" || start.ending == ".stl";
+}
+
+}  // namespace
+
+ContourFormat scan_format() {
+  return {.traits = {.name = "surface", .content = Content::surface, .noise = 1e-3},
+          .about = "PLY, OBJ and STL scans",
+          .known_by_bytes = known_by_bytes,
+          .known_by_line = {},
+          .read = read,
+          .example = {.name = "scan.obj",
+                      .text = "v 60 -10 95\nv 60 10 95\nv 90 -10 115\nv 90 10 115\n"
+                              "f 1 2 3\nf 2 4 3\n",
+                      .options = {}}};
 }
 
 }  // namespace genio

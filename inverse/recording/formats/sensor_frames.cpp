@@ -1,8 +1,8 @@
+#include "inverse/recording/formats/sensor_frames.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "inverse/recording/formats/contour_formats.hpp"
 
 namespace genio {
 namespace {
@@ -40,8 +40,8 @@ RawContours sensor_frames(const std::string& path, const SensorTable& table, con
     used.emplace_back(size_t(it - table.names.begin()), what);
   }
   const double rate = o.rate_hz > 0 ? o.rate_hz : table.rate_hz;
-  RawContours raw{{}, {"mm", "right", "up"}};
-  raw.file.format = ContourFormat::ema, raw.file.model_frame = false;
+  RawContours raw{{}, FileAxes{"mm", "right", "up"}};
+  raw.file.model_frame = false;
   if (rate == 0)
     raw.file.remarks.push_back("no sampling rate in the file: times are 0 (--rate-hz)");
   for (size_t s = 0; s < table.samples.size(); ++s) {

@@ -1,3 +1,5 @@
+#include "inverse/recording/formats/ssff.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-#include "inverse/recording/formats/contour_formats.hpp"
+#include "inverse/recording/formats/sensor_frames.hpp"
 
 namespace genio {
 namespace {
@@ -83,8 +85,6 @@ std::pair<std::string, int> coordinate(const std::string& name) {
 
 }  // namespace
 
-/// Sensors are columns of 2 (x, z) or at least 3 (x, y, z) values, or scalar columns that share a
-/// name but for a last x, y or z.
 RawContours read_ssff(const std::string& path, const ReadOptions& o) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path + ": no such file");

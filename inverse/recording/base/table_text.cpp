@@ -1,4 +1,4 @@
-#include "inverse/recording/table_text.hpp"
+#include "inverse/recording/base/table_text.hpp"
 
 #include <fmt/format.h>
 

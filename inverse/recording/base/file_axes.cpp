@@ -1,10 +1,10 @@
+#include "inverse/recording/base/file_axes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "inverse/recording/formats/contour_formats.hpp"
 
 namespace genio {
 namespace {
@@ -42,9 +42,10 @@ double metres(const std::string& unit, const ReadOptions& o, const std::string& 
   throw InputError(fmt::format("--units {}: expected mm, cm, m, um or px", unit));
 }
 
-double scale(RawContours& raw, const std::string& path, const ReadOptions& o) {
-  const double extent = typical_extent(raw.file);
-  std::string unit = !o.units.empty() ? o.units : o.mm_per_px > 0 ? "px" : raw.axes.units;
+double scale(ContourFile& file, const FileAxes& axes, const std::string& path,
+             const ReadOptions& o) {
+  const double extent = typical_extent(file);
+  std::string unit = !o.units.empty() ? o.units : o.mm_per_px > 0 ? "px" : axes.units;
   const bool told = !unit.empty();
   if (!told && extent > 0)
     for (const auto& [name, size] :
@@ -59,9 +60,8 @@ double scale(RawContours& raw, const std::string& path, const ReadOptions& o) {
   if (extent > 0 && !(extent * size < longest))
     throw InputError(fmt::format("{}: contours of {:.4g} mm in {}; a tongue's have 20 to 200 mm",
                                  path, 1e3 * extent * size, unit));
-  raw.file.remarks.push_back(fmt::format("units {} ({}); contours span {:.0f} mm", unit,
-                                         told ? "as said" : "by their extent",
-                                         1e3 * extent * size));
+  file.remarks.push_back(fmt::format("units {} ({}); contours span {:.0f} mm", unit,
+                                     told ? "as said" : "by their extent", 1e3 * extent * size));
   return size;
 }
 
@@ -78,9 +78,7 @@ bool arches_down(const ContourFile& file) {
   return down > up;
 }
 
-bool curves(const ContourFile& file) {
-  return file.format != ContourFormat::ema && file.format != ContourFormat::surface;
-}
+bool holds_curves(const ContourFile& file) { return file.format.content == Content::curves; }
 
 /// From the sensor called `a` to that called `b`, summed over frames; 0 where not both are there.
 Vec3 between(const ContourFile& file, const std::string& a, const std::string& b) {
@@ -117,19 +115,19 @@ void check_choice(const std::string& value, const char* option, const char* a, c
 
 }  // namespace
 
-ContourFile in_model_axes(RawContours raw, const std::string& path, const ReadOptions& o) {
+ContourFile in_model_axes(ContourFile file, const FileAxes& axes, const std::string& path,
+                          const ReadOptions& o) {
   check_choice(o.facing, "--facing", "left", "right");
   check_choice(o.up, "--y-grows", "up", "down");
-  ContourFile& file = raw.file;
-  const double size = scale(raw, path, o);
-  if (file.format == ContourFormat::ema) put_sensors_along(file);
-  std::string up = !o.up.empty() ? o.up : raw.axes.up;
+  const double size = scale(file, axes, path, o);
+  if (file.format.content == Content::sensors) put_sensors_along(file);
+  std::string up = !o.up.empty() ? o.up : axes.up;
   if (up.empty()) {
-    up = curves(file) && arches_down(file) ? "down" : "up";
+    up = holds_curves(file) && arches_down(file) ? "down" : "up";
     file.remarks.push_back(
-        fmt::format("y grows {} ({})", up, curves(file) ? "by the arch" : "assumed"));
+        fmt::format("y grows {} ({})", up, holds_curves(file) ? "by the arch" : "assumed"));
   }
-  std::string facing = !o.facing.empty() ? o.facing : raw.axes.facing;
+  std::string facing = !o.facing.empty() ? o.facing : axes.facing;
   if (const double d = between(file, "tip", "dorsum")[0]; o.facing.empty() && d != 0) {
     facing = d > 0 ? "left" : "right";
     file.remarks.push_back(fmt::format("face looks {} (the tip is there)", facing));
@@ -145,7 +143,7 @@ ContourFile in_model_axes(RawContours raw, const std::string& path, const ReadOp
       if (up == "down") p.position[2] = -p.position[2];
     }
   if (file.facing_known) remark_order(file);
-  return std::move(file);
+  return file;
 }
 
 void remark_order(ContourFile& file) {
@@ -154,7 +152,7 @@ void remark_order(ContourFile& file) {
     const auto& p = frame.points;
     if (p.size() > 1) (p.back().position[0] > p.front().position[0] ? back : front) += 1;
   }
-  if (back + front > 0 && curves(file))
+  if (back + front > 0 && holds_curves(file))
     file.remarks.push_back(fmt::format("points run from {} (which does not count)",
                                        back > front ? "tip to root" : "root to tip"));
 }

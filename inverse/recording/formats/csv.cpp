@@ -1,3 +1,5 @@
+#include "inverse/recording/formats/csv.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,8 +8,7 @@
 #include <map>
 
 #include "forward/base/nearest_name.hpp"
-#include "inverse/recording/formats/contour_formats.hpp"
-#include "inverse/recording/table_text.hpp"
+#include "inverse/recording/base/table_text.hpp"
 
 namespace genio {
 namespace {
@@ -16,9 +17,7 @@ const std::vector<std::string> known_columns = {
     "frame", "point",  "x_mm",      "y_mm",      "z_mm",      "sigma_mm", "kind",
     "label", "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm", "slice"};
 
-}  // namespace
-
-ContourFile read_csv_contours(const std::string& path) {
+RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
   std::string line;
   if (!lines.next(line)) lines.fail("the file is empty; expected a header line");
@@ -83,7 +82,22 @@ ContourFile read_csv_contours(const std::string& path) {
     f.points.push_back(std::move(p));
   }
   if (file.frames.empty()) lines.fail("the file has a header but no point");
-  return file;
+  return {std::move(file), {}};
+}
+
+bool known_by_line(const FileStart& start) { return start.line.find(',') != std::string::npos; }
+
+}  // namespace
+
+ContourFormat csv_format() {
+  return {.traits = {.name = "csv"},
+          .about = "the table of the README, in the model's frame",
+          .known_by_bytes = {},
+          .known_by_line = known_by_line,
+          .read = read,
+          .example = {.name = "shape.csv",
+                      .text = "frame,point,x_mm,z_mm\n1,1,60,95\n1,2,90,115\n",
+                      .options = {}}};
 }
 
 }  // namespace genio

@@ -1,11 +1,13 @@
+#include "inverse/recording/formats/aaa.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 #include <regex>
 
-#include "inverse/recording/formats/contour_formats.hpp"
-#include "inverse/recording/table_text.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/formats/aaa_polar.hpp"
 
 namespace genio {
 namespace {
@@ -64,13 +66,10 @@ std::vector<ContourPoint> longest_run(const std::vector<ContourPoint>& points) {
   return best;
 }
 
-}  // namespace
-
-RawContours read_aaa_contours(const std::string& path) {
+RawContours read_cartesian(const std::string& path) {
   TableLines lines(path);
-  RawContours raw{{}, {"mm", "right", "up"}};
+  RawContours raw{{}, FileAxes{"mm", "right", "up"}};
   ContourFile& file = raw.file;
-  file.format = ContourFormat::aaa;
   file.model_frame = false;
   Layout layout;
   size_t columns = 0;
@@ -113,6 +112,26 @@ RawContours read_aaa_contours(const std::string& path) {
   }
   if (file.frames.empty()) lines.fail("the file has no data row");
   return raw;
+}
+
+RawContours read(const std::string& path, const ReadOptions&) {
+  return has_polar_blocks(path) ? read_aaa_polar(path) : read_cartesian(path);
+}
+
+bool known_by_line(const FileStart& start) { return start.line.find('\t') != std::string::npos; }
+
+}  // namespace
+
+ContourFormat aaa_format() {
+  return {.traits = {.name = "aaa", .noise = ultrasound_noise},
+          .about = "AAA exports, Cartesian and polar, with or without header",
+          .known_by_bytes = {},
+          .known_by_line = known_by_line,
+          .read = read,
+          .example = {.name = "export.txt",
+                      .text = "Prompt\tTime of sample in recording\tX0 Tongue\tY0 Tongue\t"
+                              "X1 Tongue\tY1 Tongue\nword\t0.5\t-10\t55\t-40\t60\n",
+                      .options = {}}};
 }
 
 }  // namespace genio

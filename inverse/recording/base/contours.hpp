@@ -1,0 +1,64 @@
+#pragma once
+// Measured shapes, as readers hand them on.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "forward/base/types.hpp"
+
+namespace genio {
+
+/// One point, in metres and x backwards, z up; in the device's own frame until registered.
+struct ContourPoint {
+  Vec3 position;             ///< [m]; y NaN where not given
+  double sigma = 0;          ///< [m]; 0: the caller's noise
+  std::string kind;          ///< "curve", "surface", "volume" or a flesh point's name
+  Vec3 rest = Vec3::Zero();  ///< of a volume point: where its tissue lies at rest [m]
+  int slice = 0;             ///< of a surface point: which contour it belongs to
+};
+
+/// One shape: a frame of a recording.
+struct ContourFrame {
+  int number = 0;     ///< data row or sample from 1, or the file's own frame number
+  std::string label;  ///< prompt, word or label, where given
+  double time_s = 0;
+  std::string note;  ///< why it has no points, if it has none
+  std::vector<ContourPoint> points;
+};
+
+/// What one assumes when nobody says [m]: of points that come from anywhere, of ultrasound.
+constexpr double point_noise = 0.5e-3, ultrasound_noise = 1.5e-3;
+
+/// What the frames of a format hold: contours, positions of sensors, or points of a surface.
+enum class Content { curves, sensors, surface };
+
+/// What holds for every file of a format.
+struct FormatTraits {
+  std::string name;  ///< as --format names it
+  Content content = Content::curves;
+  double noise = point_noise;  ///< what one assumes when nobody says [m]
+};
+
+/// What no file says, or what the caller knows better.
+struct ReadOptions {
+  std::string format = "auto";  ///< a name of contour_formats(), or auto
+  std::string units;            ///< mm, cm, m, um, px; empty: the format's, or by the extent
+  double mm_per_px = 0;
+  std::string facing;  ///< left (x grows backwards) or right; empty: the format's, or unknown
+  std::string up;      ///< up or down: where y grows to; empty: the format's, or by the arch
+  /// Sensor of a flesh-point recording, by number or name, to what it is stuck to: "tip", ...
+  std::map<std::string, std::string> sensors;
+  double rate_hz = 0;  ///< of samples, where the file does not tell
+};
+
+struct ContourFile {
+  FormatTraits format;
+  bool model_frame = true;  ///< false: needs registration (the device's own axes)
+  /// False where neither file nor caller tells which way the face looks: the palate has to.
+  bool facing_known = true;
+  std::vector<std::string> remarks;  ///< units, facing, point order: what was taken for granted
+  std::vector<ContourFrame> frames;
+};
+
+}  // namespace genio

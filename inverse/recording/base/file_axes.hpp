@@ -1,0 +1,25 @@
+#pragma once
+// From a file's units and axes to metres with x backwards and z up.
+
+#include "inverse/recording/base/contours.hpp"
+
+namespace genio {
+
+/// What a format says of its axes; empty where it says nothing.
+struct FileAxes {
+  std::string units, facing, up;
+};
+
+/// The file, whose positions are (along, across, up) in its own units and directions, in metres
+/// with x backwards and z up. The caller decides, else the format, else the points themselves; the
+/// remarks say who did. Throws InputError naming `path` where nothing says it.
+ContourFile in_model_axes(ContourFile file, const FileAxes& axes, const std::string& path,
+                          const ReadOptions& options);
+
+/// Adds to the remarks which way the points of its curves run.
+void remark_order(ContourFile& file);
+
+/// The same file with x turned around.
+ContourFile mirrored(ContourFile file);
+
+}  // namespace genio

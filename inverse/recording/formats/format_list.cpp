@@ -1,0 +1,78 @@
+#include "inverse/recording/formats/format_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "forward/base/nearest_name.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/formats/aaa.hpp"
+#include "inverse/recording/formats/csv.hpp"
+#include "inverse/recording/formats/edgetrak.hpp"
+#include "inverse/recording/formats/ema.hpp"
+#include "inverse/recording/formats/getcontours.hpp"
+#include "inverse/recording/formats/scan.hpp"
+
+namespace genio {
+namespace {
+
+std::string ending(const std::string& path) {
+  std::string e = std::filesystem::path(path).extension().string();
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return std::tolower(c); });
+  return e;
+}
+
+std::string first_bytes(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path + ": no such file");
+  std::string bytes(4, '\0');
+  in.read(bytes.data(), 4);
+  return bytes.substr(0, size_t(in.gcount()));
+}
+
+}  // namespace
+
+const std::vector<ContourFormat>& contour_formats() {
+  // A format that knows its files by less stands below those that know theirs by more.
+  static const std::vector<ContourFormat> formats = {
+      ema_format(),      scan_format(), getcontours_format(),
+      edgetrak_format(), aaa_format(),  csv_format(),
+  };
+  return formats;
+}
+
+const ContourFormat& format_named(const std::string& name) {
+  std::vector<std::string> names = {"auto"};
+  for (const ContourFormat& format : contour_formats()) {
+    if (format.traits.name == name) return format;
+    names.push_back(format.traits.name);
+  }
+  throw InputError(fmt::format("--format {}: unknown; did you mean {}? Expected {}", name,
+                               nearest_name(name, names), format_choices()));
+}
+
+const ContourFormat& format_of(const std::string& path) {
+  FileStart start{ending(path), first_bytes(path), {}};
+  for (const ContourFormat& format : contour_formats())
+    if (format.known_by_bytes && format.known_by_bytes(start)) return format;
+  TableLines lines(path);
+  while (lines.next(start.line) && trimmed(start.line).empty()) {
+  }
+  for (const ContourFormat& format : contour_formats())
+    if (format.known_by_line && format.known_by_line(start)) return format;
+  throw InputError(fmt::format(
+      "{}:{}: neither tab-separated (AAA, GetContours) nor comma-separated (CSV), nor a file of "
+      "points known by its first bytes or ending; give --format",
+      path, std::max(1, lines.number())));
+}
+
+std::string format_choices() {
+  std::string choices = "auto";
+  for (const ContourFormat& format : contour_formats())
+    choices += (&format == &contour_formats().back() ? " or " : ", ") + format.traits.name;
+  return choices;
+}
+
+}  // namespace genio

@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "inverse/recording/base/contour_format.hpp"
+
+namespace genio {
+
+/// All formats, in the order in which a file is held against them.
+const std::vector<ContourFormat>& contour_formats();
+
+/// The format of that name. Throws InputError that suggests the nearest name.
+const ContourFormat& format_named(const std::string& name);
+
+/// The format of a file by its first bytes, ending or first line. Throws InputError naming `path`
+/// where none knows it.
+const ContourFormat& format_of(const std::string& path);
+
+/// "auto, ema, ... or csv": what --format takes.
+std::string format_choices();
+
+}  // namespace genio
