@@ -14,7 +14,7 @@
 #include "forward/model/build_model.hpp"
 #include "forward/model/half_model.hpp"
 #include "forward/statics/equilibrium.hpp"
-#include "inverse/prior/unknowns.hpp"
+#include "inverse/prior/base/unknowns.hpp"
 
 namespace genio::bench {
 namespace {

@@ -1,18 +1,12 @@
 #include "inverse/search/symmetric_route.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace genio {
 namespace {
 
-bool one_sided(const std::string& name) { return name.ends_with("_L") || name.ends_with("_R"); }
-
-template <class Map>
-bool any_one_sided(const Map& map) {
-  for (const auto& [name, value] : map)
-    if (one_sided(name)) return true;
-  return false;
-}
+bool one_sided(const std::string& name) { return bilateral_name(name) != name; }
 
 }  // namespace
 
@@ -27,8 +21,7 @@ void double_forces(std::vector<Estimate>& unknowns) {
 bool fits_half_tongue(const Target& target, const Prior& prior, const InferOptions& options) {
   if (!target.midsagittal() || !options.bilateral.value_or(true) || options.finite_differences)
     return false;
-  return !any_one_sided(prior.emg) && !any_one_sided(prior.fixed) &&
-         !any_one_sided(prior.parameters);
+  return std::ranges::none_of(names_in_prior(prior), one_sided);
 }
 
 Target half_target(const Mirror& mirror, const Target& target) {
@@ -41,11 +34,6 @@ Target half_target(const Mirror& mirror, const Target& target) {
     }
   }
   return result;
-}
-
-Prior half_prior(Prior prior) {
-  for (auto& [name, force] : prior.fixed) force *= 0.5;
-  return prior;
 }
 
 InferOptions half_options(const Mirror& mirror, const InferOptions& options) {

@@ -10,9 +10,8 @@ namespace genio {
 /// prior speaks of no single side.
 bool fits_half_tongue(const Target& target, const Prior& prior, const InferOptions& options);
 
-/// The problem's parts for the half's model. Forces of the half are half of the whole's.
+/// The problem's parts for the half's model, beside half_prior().
 Target half_target(const Mirror& mirror, const Target& target);
-Prior half_prior(Prior prior);
 InferOptions half_options(const Mirror& mirror, const InferOptions& options);
 
 /// Forces of both sides from those of one; other unknowns stay.

@@ -2,7 +2,7 @@
 // What Gauss-Newton leaves out of the Hessian of the misfit.
 
 #include "forward/statics/equilibrium.hpp"
-#include "inverse/prior/unknowns.hpp"
+#include "inverse/prior/base/unknowns.hpp"
 #include "inverse/target/comparison.hpp"
 #include "inverse/target/head_pose.hpp"
 #include "inverse/target/target.hpp"

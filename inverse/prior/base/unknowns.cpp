@@ -1,4 +1,4 @@
-#include "inverse/prior/unknowns.hpp"
+#include "inverse/prior/base/unknowns.hpp"
 
 #include <algorithm>
 
@@ -32,10 +32,7 @@ Matrix pose_derivative(const std::vector<Unknown>& unknowns) {
   Matrix d = Matrix::Zero(3, Eigen::Index(unknowns.size()));
   for (size_t c = 0; c < unknowns.size(); ++c)
     if (unknowns[c].kind == Unknown::Kind::pose)
-      d(unknowns[c].name == "head_pose.x"   ? 0
-        : unknowns[c].name == "head_pose.z" ? 1
-                                            : 2,
-        Eigen::Index(c)) = unknowns[c].scale;
+      d(Eigen::Index(unknowns[c].axis), Eigen::Index(c)) = unknowns[c].scale;
   return d;
 }
 

@@ -11,6 +11,9 @@
 
 namespace genio {
 
+/// What a part of the head pose moves: the target's points along x or z, or by turning them.
+enum class PoseAxis { x, z, turn };
+
 /// One unknown z: a force shared over one or two muscle parameters (z is the activation), another
 /// parameter of the model, or a part of the head pose, which moves the target and not the tongue.
 struct Unknown {
@@ -24,6 +27,7 @@ struct Unknown {
   std::string unit = "N";
   double lower = 0, upper = 1;  ///< of z
   bool ratio = false;           ///< scale z is the value's logarithm
+  PoseAxis axis = PoseAxis::x;  ///< of a part of the head pose
 
   double value(double z) const { return ratio ? std::exp(scale * z) : scale * z; }
   /// d value / dz where it has that value.
