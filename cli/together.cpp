@@ -62,7 +62,7 @@ Answer answer_at(const MotionAnswer& a, size_t frame) {
   result.rms = f.residuals.rms, result.max = f.residuals.max;
   result.chi2_per_dof = a.chi2_per_dof;
   for (Estimate& e : commands_at(a, f.time_s))
-    (e.unit == "N" ? result.muscles : result.others).push_back(std::move(e));
+    (e.kind == Unknown::Kind::muscle ? result.muscles : result.others).push_back(std::move(e));
   return result;
 }
 

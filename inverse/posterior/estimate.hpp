@@ -4,17 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "inverse/prior/base/unknowns.hpp"
+
 namespace genio {
 
 enum class Verdict { none, explained, unreachable, mismatch };
 const char* to_string(Verdict verdict);
 
-/// One muscle of an answer. Forces in N, both sides together for bilateral commands. Or another
-/// unknown, in its own unit.
+/// What is said of an unknown: a muscle's force in N, both sides together for bilateral commands,
+/// or another one in its own unit.
 struct Estimate {
   std::string name;
   double best = 0, maximum = 0;
   std::string unit = "N";
+  Unknown::Kind kind = Unknown::Kind::muscle;
   double sd = 0;                ///< of the posterior
   double low = 0, high = 0;     ///< 90 % interval; one-sided where the force is at a bound
   double information_bits = 0;  ///< binary logarithm of the prior's over the posterior's sd

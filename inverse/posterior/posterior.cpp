@@ -110,7 +110,7 @@ FitTest test_fit(const Vector& r, const Matrix& scatter, double used, double gai
 
 Estimate estimate(const Unknown& c, double mode, double lower, double upper, const Vector& samples,
                   const Vector& believed) {
-  Estimate e{c.name, c.value(mode), c.scale, c.unit};
+  Estimate e{c.name, c.value(mode), c.scale, c.unit, c.kind};
   const auto s = summarise(samples, mode, lower, upper);
   const double spread = std::sqrt((believed.array() - believed.mean()).square().mean());
   e.sd = s.sd * c.slope(c.value(mode)), e.low = c.value(s.low), e.high = c.value(s.high);

@@ -12,7 +12,7 @@ bool one_sided(const std::string& name) { return bilateral_name(name) != name; }
 
 void double_forces(std::vector<Estimate>& unknowns) {
   for (Estimate& c : unknowns) {
-    if (c.unit != "N") continue;
+    if (c.kind != Unknown::Kind::muscle) continue;
     c.best *= 2, c.maximum *= 2, c.sd *= 2;
     c.low *= 2, c.high *= 2;
   }

@@ -103,7 +103,7 @@ void summarise(MotionProblem& problem, LocalProblem& local, const Vector& u,
     for (Eigen::Index c = 0; c < n; ++c) {
       const Eigen::Index i = n * Eigen::Index(knot) + c;
       const Unknown& unknown = problem.unknowns()[size_t(c)];
-      Estimate e{unknown.name, u[i] * unknown.scale, unknown.scale, unknown.unit};
+      Estimate e{unknown.name, u[i] * unknown.scale, unknown.scale, unknown.unit, unknown.kind};
       e.low = e.high = e.best, e.fixed = true;
       if (f < open.size() && open[f] == i) {
         e = estimate(unknown, u[i], problem.lower()[i], problem.upper()[i],

@@ -56,7 +56,7 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0, f = 0; i < z.size(); ++i) {
     const Unknown& c = unknowns[size_t(i)];
-    Estimate e{c.name, c.value(z[i]), c.scale, c.unit};
+    Estimate e{c.name, c.value(z[i]), c.scale, c.unit, c.kind};
     e.low = e.high = e.best;
     e.fixed = prior.fixed(i);
     if (!e.fixed) {

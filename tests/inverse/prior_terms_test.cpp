@@ -126,6 +126,15 @@ TEST_F(PriorTermsOfHalf, ANameOfOneSideKeepsTheWholeTongue) {
   EXPECT_TRUE(fits([](Prior& p) { p.emg["GGP"] = {0.2, 0.05}; }));
 }
 
+TEST(HalfAnswers, ForcesOfMusclesAreDoubledAndParametersInNewtonsAreNot) {
+  std::vector<Estimate> estimates(2);
+  estimates[0].best = estimates[1].best = 3;
+  estimates[1].kind = Unknown::Kind::parameter;
+  double_forces(estimates);
+  EXPECT_EQ(estimates[0].best, 6);
+  EXPECT_EQ(estimates[1].best, 3);
+}
+
 TEST_F(PriorTermsOfHalf, EveryTermIsReadUnderKeysOfItsOwn) {
   std::vector<std::string> keys;
   Prior{}.each([&]<class Term>(const Term&) {
