@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <regex>
 
 #include "inverse/recording/base/table_text.hpp"
@@ -14,14 +15,14 @@ namespace {
 constexpr double longest_gap = 12;  // between neighbouring knots of one contour [mm]
 
 /// Where things stand in a row.
-struct AaaLayout {
+struct Layout {
   std::vector<std::pair<size_t, size_t>> knots;  // columns of x and y
   size_t label = 3, time = 1;
 };
 
 /// Columns "X0 Tongue", "Y0 Tongue", ... of the first spline named in a header.
-AaaLayout from_header(const std::vector<std::string>& header, const TableLines& lines) {
-  AaaLayout layout;
+Layout from_header(const std::vector<std::string>& header, const TableLines& lines) {
+  Layout layout;
   const std::regex knot(R"(^([XY])(\d+)\s+(.*)$)");
   std::string spline;
   std::smatch m, my;
@@ -39,8 +40,8 @@ AaaLayout from_header(const std::vector<std::string>& header, const TableLines& 
 }
 
 /// Without a header: 11 or 14 columns before the knots, told apart by their number.
-AaaLayout without_header(size_t fields, const TableLines& lines) {
-  AaaLayout layout;
+Layout without_header(size_t fields, const TableLines& lines) {
+  Layout layout;
   size_t meta = 0;
   for (size_t m : {size_t(14), size_t(11)})
     if (fields == m + 84) meta = m;
@@ -70,7 +71,7 @@ RawContours read_cartesian(const std::string& path) {
   RawContours raw{{}, FileAxes{"mm", "right", "up"}};
   ContourFile& file = raw.file;
   file.model_frame = false;
-  AaaLayout layout;
+  Layout layout;
   size_t columns = 0;
   int row = 0;
   for (std::string line; lines.next(line);) {
@@ -100,7 +101,7 @@ RawContours read_cartesian(const std::string& path) {
         lines.fail(
             fmt::format("knot {}: '{}', '{}'; expected two finite numbers or '*'", k, tx, ty));
       ContourPoint p;
-      p.position = {x, not_given, y};
+      p.position = {x, std::numeric_limits<double>::quiet_NaN(), y};
       p.kind = "curve";
       frame.points.push_back(std::move(p));
     }
@@ -113,11 +114,11 @@ RawContours read_cartesian(const std::string& path) {
   return raw;
 }
 
-RawContours read_aaa(const std::string& path, const ReadOptions&) {
+RawContours read(const std::string& path, const ReadOptions&) {
   return has_polar_blocks(path) ? read_aaa_polar(path) : read_cartesian(path);
 }
 
-bool is_aaa_line(const FileStart& start) { return start.line.find('\t') != std::string::npos; }
+bool known_by_line(const FileStart& start) { return start.line.find('\t') != std::string::npos; }
 
 }  // namespace
 
@@ -125,8 +126,8 @@ ContourFormat aaa_format() {
   return {.traits = {.name = "aaa", .noise = ultrasound_noise},
           .about = "AAA exports, Cartesian and polar, with or without header",
           .known_by_bytes = {},
-          .known_by_line = is_aaa_line,
-          .read = read_aaa,
+          .known_by_line = known_by_line,
+          .read = read,
           .example = {.name = "export.txt",
                       .text = "Prompt\tTime of sample in recording\tX0 Tongue\tY0 Tongue\t"
                               "X1 Tongue\tY1 Tongue\nword\t0.5\t-10\t55\t-40\t60\n",

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "inverse/recording/base/table_text.hpp"
 
 namespace genio {
 namespace {
+
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 /// Fields of a row by its separator, an empty one at the end dropped: tab or comma.
 std::vector<std::string> fields_of(const std::string& line, char separator) {
@@ -24,7 +27,7 @@ int frame_number(std::string text) {
   return parse_number(text, n) && n == std::floor(n) && n > 0 && n < 1e9 ? int(n) : 0;
 }
 
-RawContours read_edgetrak(const std::string& path, const ReadOptions&) {
+RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
   RawContours raw{{}, FileAxes{}};
   raw.file.model_frame = false;
@@ -71,7 +74,7 @@ RawContours read_edgetrak(const std::string& path, const ReadOptions&) {
 }
 
 /// Tables separated by commas whose first field is a number have no header.
-bool is_edgetrak_line(const FileStart& start) {
+bool known_by_line(const FileStart& start) {
   const std::string& line = start.line;
   if (line.starts_with("FRAME") || start.ending == ".con") return true;
   double first = 0;
@@ -86,8 +89,8 @@ ContourFormat edgetrak_format() {
   return {.traits = {.name = "edgetrak", .noise = ultrasound_noise},
           .about = ".con and _EdgeTrak.tsv files, and plain tables of x, y columns",
           .known_by_bytes = {},
-          .known_by_line = is_edgetrak_line,
-          .read = read_edgetrak,
+          .known_by_line = known_by_line,
+          .read = read,
           .example = {.name = "word.con",
                       .text = "55\t95\t55\t96\n75\t110\t75\t111\n95\t115\t95\t116\n",
                       .options = {}}};

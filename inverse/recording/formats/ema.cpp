@@ -106,7 +106,7 @@ SensorTable read_text(const std::string& path) {
   return table;
 }
 
-RawContours read_ema(const std::string& path, const ReadOptions& o) {
+RawContours read(const std::string& path, const ReadOptions& o) {
   const std::string bytes = whole_file(path);
   if (bytes.starts_with("SSFF")) return read_ssff(path, o);
   if (bytes.starts_with("AG50x")) return sensor_frames(path, read_ag501(bytes, path), o);
@@ -119,11 +119,11 @@ RawContours read_ema(const std::string& path, const ReadOptions& o) {
   return sensor_frames(path, samples(bytes, 0, ag500_channels, ag500_rate, path), o);
 }
 
-bool are_ema_bytes(const FileStart& start) {
+bool known_by_bytes(const FileStart& start) {
   return start.bytes == "SSFF" || start.bytes == "AG50" || start.ending == ".pos";
 }
 
-bool is_ema_line(const FileStart& start) { return start.line.find("Ch1_X") != std::string::npos; }
+bool known_by_line(const FileStart& start) { return start.line.find("Ch1_X") != std::string::npos; }
 
 }  // namespace
 
@@ -132,9 +132,9 @@ ContourFormat ema_format() {
   sensors.sensors = {{"1", "tip"}};
   return {.traits = {.name = "ema", .content = Content::sensors},
           .about = "AG500 and AG501 .pos, AG501 text, SSFF",
-          .known_by_bytes = are_ema_bytes,
-          .known_by_line = is_ema_line,
-          .read = read_ema,
+          .known_by_bytes = known_by_bytes,
+          .known_by_line = known_by_line,
+          .read = read,
           .example = {.name = "sweep.txt",
                       .text = "Ch1_X\tCh1_Y\tCh1_Z\tCh1_phi\tCh1_theta\tCh1_RMS\tCh1_Extra\n"
                               "12.5\t1\t-3.25\t0\t0\t0\t0\n",

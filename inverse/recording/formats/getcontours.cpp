@@ -11,20 +11,22 @@
 namespace genio {
 namespace {
 
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
 /// Where the numbers of a row stand. Long tables have one knot a row, wide ones all of a frame.
-struct KnotLayout {
+struct Layout {
   size_t frame = 0, time = 0, note = 0;
   bool has_note = false;
   std::vector<std::pair<size_t, size_t>> knots;
   bool wide = false, millimetres = false;
 };
 
-KnotLayout knot_layout(const std::vector<std::string>& header, const TableLines& lines) {
+Layout layout_of(const std::vector<std::string>& header, const TableLines& lines) {
   std::map<std::string, size_t> at;
   for (size_t c = 0; c < header.size(); ++c) at.emplace(trimmed(header[c]), c);
   for (const char* needed : {"FRAME", "TIME"})
     if (!at.contains(needed)) lines.fail(fmt::format("column {} is missing", needed));
-  KnotLayout l;
+  Layout l;
   l.frame = at["FRAME"], l.time = at["TIME"];
   if (at.contains("NOTE")) l.note = at["NOTE"], l.has_note = true;
   const auto pair = [&](const std::string& x, const std::string& y) {
@@ -43,12 +45,12 @@ KnotLayout knot_layout(const std::vector<std::string>& header, const TableLines&
   return l;
 }
 
-RawContours read_getcontours(const std::string& path, const ReadOptions&) {
+RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
   std::string line;
   if (!lines.next(line)) lines.fail("the file is empty; expected a header line");
   const auto header = split_fields(line, '\t');
-  const KnotLayout l = knot_layout(header, lines);
+  const Layout l = layout_of(header, lines);
   RawContours raw{{}, FileAxes{l.millimetres ? "mm" : "px", "", l.millimetres ? "" : "down"}};
   raw.file.model_frame = false;
   std::map<int, size_t> index;
@@ -82,7 +84,7 @@ RawContours read_getcontours(const std::string& path, const ReadOptions&) {
   return raw;
 }
 
-bool is_getcontours_line(const FileStart& start) { return start.line.starts_with("FRAME\tTIME"); }
+bool known_by_line(const FileStart& start) { return start.line.starts_with("FRAME\tTIME"); }
 
 }  // namespace
 
@@ -92,8 +94,8 @@ ContourFormat getcontours_format() {
   return {.traits = {.name = "getcontours", .noise = ultrasound_noise},
           .about = "tables of GetContours, long or wide, in mm or pixels",
           .known_by_bytes = {},
-          .known_by_line = is_getcontours_line,
-          .read = read_getcontours,
+          .known_by_line = known_by_line,
+          .read = read,
           .example = {.name = "word.tsv",
                       .text = "FRAME\tTIME\tNOTE\tPOINT\tX\tY\n7\t0.1\tword\t1\t275\t475\n"
                               "7\t0.1\tword\t2\t375\t400\n7\t0.1\tword\t3\t475\t375\n",

@@ -11,7 +11,7 @@ constexpr size_t enough = 400;  // points of a scan
 
 /// The vertices of a surface, at most some hundreds of them evenly through the file: neighbours
 /// say nearly the same.
-RawContours read_scan(const std::string& path, const ReadOptions&) {
+RawContours read(const std::string& path, const ReadOptions&) {
   const TriangleSurface scan = read_surface(path);
   RawContours raw{{}, FileAxes{"", "left", "up"}};
   ContourFrame& frame = raw.file.frames.emplace_back();
@@ -26,7 +26,7 @@ RawContours read_scan(const std::string& path, const ReadOptions&) {
   return raw;
 }
 
-bool are_scan_bytes(const FileStart& start) {
+bool known_by_bytes(const FileStart& start) {
   return start.ending == ".ply" || start.ending == ".obj" || start.ending == ".stl";
 }
 
@@ -35,9 +35,9 @@ bool are_scan_bytes(const FileStart& start) {
 ContourFormat scan_format() {
   return {.traits = {.name = "surface", .content = Content::surface, .noise = 1e-3},
           .about = "PLY, OBJ and STL scans",
-          .known_by_bytes = are_scan_bytes,
+          .known_by_bytes = known_by_bytes,
           .known_by_line = {},
-          .read = read_scan,
+          .read = read,
           .example = {.name = "scan.obj",
                       .text = "v 60 -10 95\nv 60 10 95\nv 90 -10 115\nv 90 10 115\n"
                               "f 1 2 3\nf 2 4 3\n",

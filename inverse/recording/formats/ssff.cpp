@@ -83,6 +83,47 @@ std::pair<std::string, int> coordinate(const std::string& name) {
   return {stem, axis};
 }
 
+/// The sensors of a file, and where in a record their coordinates lie.
+struct Sensors {
+  struct Source {
+    size_t column, offset;
+  };
+  std::vector<Source> sources;
+  std::vector<std::string> names;
+  std::vector<std::array<int, 3>> parts;  ///< of each sensor: the source of x, y, z; -1: none
+};
+
+Sensors sensors_of(const Header& h) {
+  Sensors s;
+  std::map<std::string, size_t> by_stem;
+  size_t offset = 0;
+  for (size_t k = 0; k < h.columns.size(); ++k) {
+    const Column& c = h.columns[k];
+    const int first = int(s.sources.size());
+    if (c.count == 1) {
+      const auto [stem, axis] = coordinate(c.name);
+      if (axis >= 0) {
+        const auto [it, fresh] = by_stem.try_emplace(stem, s.parts.size());
+        if (fresh) s.names.push_back(stem), s.parts.push_back({-1, -1, -1});
+        s.parts[it->second][size_t(axis)] = first;
+        s.sources.push_back({k, offset});
+      }
+    } else {
+      s.names.push_back(c.name);
+      s.parts.push_back(c.count == 2 ? std::array{first, -1, first + 1}
+                                     : std::array{first, first + 1, first + 2});
+      for (size_t i = 0; i < std::min<size_t>(3, c.count); ++i)
+        s.sources.push_back({k, offset + i * c.bytes});
+    }
+    offset += c.count * c.bytes;
+  }
+  // Two scalar tracks of a sensor are its horizontal and its vertical one, whatever they are
+  // called.
+  for (auto& p : s.parts)
+    if (p[2] < 0) std::swap(p[1], p[2]);
+  return s;
+}
+
 }  // namespace
 
 RawContours read_ssff(const std::string& path, const ReadOptions& o) {
@@ -93,45 +134,15 @@ RawContours read_ssff(const std::string& path, const ReadOptions& o) {
   if ((bytes.size() - h.size) % h.record != 0)
     throw InputError(fmt::format("{}: {} bytes of records; expected a multiple of {}", path,
                                  bytes.size() - h.size, h.record));
-  struct Source {
-    size_t column, offset;
-  };
-  std::vector<std::array<int, 3>> parts;  // place of x, y, z among the sources; -1: none
-  std::vector<Source> sources;
-  SensorTable table{{}, {}, h.rate};
-  std::map<std::string, size_t> by_stem;
-  size_t offset = 0;
-  for (size_t k = 0; k < h.columns.size(); ++k) {
-    const Column& c = h.columns[k];
-    const int first = int(sources.size());
-    if (c.count == 1) {
-      const auto [stem, axis] = coordinate(c.name);
-      if (axis >= 0) {
-        const auto [it, fresh] = by_stem.try_emplace(stem, parts.size());
-        if (fresh) table.names.push_back(stem), parts.push_back({-1, -1, -1});
-        parts[it->second][size_t(axis)] = first;
-        sources.push_back({k, offset});
-      }
-    } else {
-      table.names.push_back(c.name);
-      parts.push_back(c.count == 2 ? std::array{first, -1, first + 1}
-                                   : std::array{first, first + 1, first + 2});
-      for (size_t i = 0; i < std::min<size_t>(3, c.count); ++i)
-        sources.push_back({k, offset + i * c.bytes});
-    }
-    offset += c.count * c.bytes;
-  }
-  // Two scalar tracks of a sensor are its horizontal and its vertical one, whatever they are
-  // called.
-  for (auto& p : parts)
-    if (p[2] < 0) std::swap(p[1], p[2]);
+  const Sensors sensors = sensors_of(h);
+  SensorTable table{sensors.names, {}, h.rate};
   for (size_t at = h.size; at < bytes.size(); at += h.record) {
     auto& row = table.samples.emplace_back();
-    for (const auto& p : parts) {
+    for (const auto& p : sensors.parts) {
       Vec3 v = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
       for (int i = 0; i < 3; ++i)
         if (p[size_t(i)] >= 0) {
-          const Source& s = sources[size_t(p[size_t(i)])];
+          const Sensors::Source& s = sensors.sources[size_t(p[size_t(i)])];
           v[i] = number(bytes.data() + at + s.offset, h.columns[s.column]);
         }
       if (std::isnan(v[1])) v[1] = 0;
