@@ -11,6 +11,7 @@
 
 #include "forward/anatomy/refined_model.hpp"
 #include "forward/model/build_model.hpp"
+#include "forward/model/half_model.hpp"
 #include "forward/motion/dynamics.hpp"
 #include "forward/motion/motion_sensitivity.hpp"
 #include "forward/statics/equilibrium.hpp"
@@ -155,7 +156,7 @@ void write_prior(const std::string& folder) {
 }
 
 void write_observations(const ModelDescription& tongue, const std::string& folder) {
-  ModelDescription truth = refined(tongue);
+  ModelDescription truth = refined(half_of(tongue, tongue.name));
   truth.effects["airway_pressure"]["pressure"] = 400;
   const Model model = build_model(truth, "truth");
   Workspace ws(model);
@@ -171,7 +172,9 @@ void write_observations(const ModelDescription& tongue, const std::string& folde
     auto out = created(folder, name + ".csv");
     out.print("frame,point,x_mm,z_mm\n");
     int number = 0;
-    for (const Vec2& q : seen_line(model, shape_under(model, forces, ws), 30, 0.4, noise))
+    Newtons of_half = forces;
+    for (auto& [muscle, newtons] : of_half) newtons /= 2;
+    for (const Vec2& q : seen_line(model, shape_under(model, of_half, ws), 30, 0.4, noise))
       out.print("1,{},{:.3f},{:.3f}\n", ++number, q[0], q[1]);
     std::string known;
     for (const auto& [muscle, newtons] : forces)
