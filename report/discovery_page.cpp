@@ -70,10 +70,9 @@ std::string detectable_part(const Round& round) {
     }
     std::vector<std::string> from;
     for (const FreeNumber& n : r.candidate.strengths)
-      from.push_back(fmt::format("{} {} {:.3g}{}", n.name,
-                                 r.candidate.strengths.size() > 1 ? "about" : "off by",
-                                 n.info.at(r.score.detectable * n.info.typical) - n.info.absent,
-                                 after_number(n.info.unit)));
+      from.push_back(fmt::format(
+          "{} {} {:.3g}{}", n.name, r.candidate.strengths.size() > 1 ? "about" : "off by",
+          n.at(r.score.detectable * n.belief.typical) - n.info.absent, after_number(n.info.unit)));
     s += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(r.candidate.label()),
                      escaped(fmt::format("{}", fmt::join(from, " or "))));
   }

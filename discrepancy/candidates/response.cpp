@@ -34,7 +34,7 @@ std::vector<FittedCondition> with_candidate(const Candidate& candidate,
   for (size_t i = 0; i < candidate.strengths.size(); ++i)
     for (const SharedEstimate& e : estimates)
       if (e.name == candidate.effect + "." + candidate.strengths[i].name)
-        step[Eigen::Index(i)] = candidate.strengths[i].info.off(e.value);
+        step[Eigen::Index(i)] = candidate.strengths[i].off(e.value);
   return response(f, errors, signature(candidate, set, f, influences) * step);
 }
 

@@ -31,10 +31,10 @@ double normal_quantile(double p) {
 }
 
 FreeNumber pose_number(const char* name, const char* unit, double typical) {
-  FreeNumber n{name, {name}, {}};
-  n.info.name = name, n.info.unit = unit;
-  n.info.lower = -4 * typical, n.info.upper = 4 * typical, n.info.typical = typical;
-  return n;
+  return {.name = name,
+          .keys = {name},
+          .info = {.name = name, .unit = unit, .lower = -4 * typical, .upper = 4 * typical},
+          .belief = {.parameter = name, .typical = typical}};
 }
 
 /// In which direction it may be off its absent value; 0: in either.
@@ -89,14 +89,16 @@ Forces forces_by(const Hypothesis& h, const FreeNumber& strength, const Model& m
     }
     return df;
   }
-  const auto info = h.made->parameters();
+  if (!h.made.potential) return df;  // no force in statics
+  const Potential& potential = *h.made.potential;
+  const auto info = potential.parameters();
   std::vector<double> values;
   for (const ParameterInfo& i : info) values.push_back(i.value);
-  for (const std::string& name : h.made->borrows())
-    values.push_back(c.parameters[parameter_index(model, name)]);
+  for (const ParameterName& name : potential.borrows())
+    values.push_back(c.parameters[parameter_index(model, name.text())]);
   for (const std::string& key : strength.keys)
     for (size_t i = 0; i < info.size(); ++i)
-      if (info[i].name == key) h.made->add_force_derivative(c.x, values, int(i), df);
+      if (info[i].name == key) potential.add_force_derivative(c.x, values, int(i), df);
   return df;
 }
 
@@ -187,7 +189,7 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Conditi
     Score s;
     s.candidate = c;
     Vector typical(count);
-    for (Eigen::Index i = 0; i < count; ++i) typical[i] = strengths[size_t(i)].info.typical;
+    for (Eigen::Index i = 0; i < count; ++i) typical[i] = strengths[size_t(i)].belief.typical;
     // By one typical strength.
     s.signature = signature(candidates[c], set, fit, influences);
     const Matrix change = s.signature * typical.asDiagonal();
@@ -220,10 +222,10 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Conditi
       if (candidates[c].is_switch()) s.log_evidence = 0.5 * s.statistic;
       const Vector sd = posterior.inverse().diagonal().cwiseSqrt();
       for (Eigen::Index i = 0; i < count; ++i) {
-        const ParameterInfo& info = strengths[size_t(i)].info;
-        s.estimate[i] = info.at(step[i] * typical[i]);
-        s.sd[i] = 0.5 * (info.at((step[i] + sd[i]) * typical[i]) -
-                         info.at((step[i] - sd[i]) * typical[i]));
+        const FreeNumber& n = strengths[size_t(i)];
+        s.estimate[i] = n.at(step[i] * typical[i]);
+        s.sd[i] =
+            0.5 * (n.at((step[i] + sd[i]) * typical[i]) - n.at((step[i] - sd[i]) * typical[i]));
       }
       s.direction = g * (step.isZero(0) ? Vector(Vector::Ones(count)) : step);
       s.direction.normalize();

@@ -17,7 +17,7 @@ double size_of(const Candidate& c, const std::string& unit,
   for (const FreeNumber& n : c.strengths)
     for (const SharedEstimate& e : estimates)
       if (e.name == c.effect + "." + n.name && n.info.unit == unit)
-        square += std::pow(n.info.off(e.value), 2);
+        square += std::pow(n.off(e.value), 2);
   return std::sqrt(square);
 }
 
@@ -28,7 +28,7 @@ void widen(NamedEffect& effect, const Candidate& c, const ErrorModel& error_mode
   const auto each = [&](const std::vector<FreeNumber>& numbers, auto doubt_of) {
     for (const FreeNumber& n : numbers)
       for (SharedEstimate& e : effect.parameters)
-        if (e.name == c.effect + "." + n.name) e = widened(e, n.info, doubt_of(n.info));
+        if (e.name == c.effect + "." + n.name) e = widened(e, n, doubt_of(n.info));
   };
   each(c.strengths, [&](const ParameterInfo& info) {
     return error_model.efficacy_sd * size_of(c, info.unit, as_fitted);
@@ -100,19 +100,19 @@ Gap gap_of(const JointFit& fit, double noise) {
   return g;
 }
 
-SharedEstimate widened(SharedEstimate e, const ParameterInfo& info, double more) {
-  const double strength = info.off(e.value);
-  double below = std::hypot(strength - info.off(e.low), ninety * more);
-  double above = std::hypot(info.off(e.high) - strength, ninety * more);
+SharedEstimate widened(SharedEstimate e, const FreeNumber& number, double more) {
+  const double strength = number.off(e.value);
+  double below = std::hypot(strength - number.off(e.low), ninety * more);
+  double above = std::hypot(number.off(e.high) - strength, ninety * more);
   const auto skewed = [&](double& away) {
     const double s = std::abs(strength);
     if (s > 0) away = std::max(away, s * std::expm1(std::min(1.0, away / s)));
   };
-  if (info.absent <= info.lower) skewed(above);
-  else if (info.absent >= info.upper) skewed(below);
-  e.sd = std::hypot(e.sd, info.ratio ? e.value * more : more);
-  e.low = std::max(info.lower, info.at(strength - below));
-  e.high = std::min(info.upper, info.at(strength + above));
+  if (number.info.absent <= number.info.lower) skewed(above);
+  else if (number.info.absent >= number.info.upper) skewed(below);
+  e.sd = std::hypot(e.sd, number.belief.ratio ? e.value * more : more);
+  e.low = std::max(number.info.lower, number.at(strength - below));
+  e.high = std::min(number.info.upper, number.at(strength + above));
   return e;
 }
 
@@ -132,7 +132,7 @@ std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>
     if (found[i].is_switch())
       for (const FreeNumber& s : found[i].strengths)
         n.parameters.push_back({found[i].effect + "." + s.name, s.info.unit,
-                                s.info.absent + s.info.typical, 0, 0, s.info.upper});
+                                s.info.absent + s.belief.typical, 0, 0, s.info.upper});
     result.push_back(std::move(n));
   }
   return result;

@@ -31,8 +31,8 @@ struct NamedEffect {
 };
 
 /// An estimate whose number says what an effect does only up to a standard deviation of `more`, in
-/// the terms of its `typical`. What can be on one side of `absent` only is log-normal above.
-SharedEstimate widened(SharedEstimate estimate, const ParameterInfo& info, double more);
+/// the terms of its typical value. What can be on one side of `absent` only is log-normal above.
+SharedEstimate widened(SharedEstimate estimate, const FreeNumber& number, double more);
 
 /// The effects found, one after another, with their parameters as fitted and doubted: a unit of an
 /// effect does its work only up to a part, as a newton of a muscle does (their course and the

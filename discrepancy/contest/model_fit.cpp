@@ -18,12 +18,12 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
   std::map<std::string, double> result;
   for (size_t i = 0; i < c.strengths.size(); ++i) {
     const FreeNumber& n = c.strengths[i];
-    const double least = 0.05 * n.info.typical;  // off the kink of a one-sided one
+    const double least = 0.05 * n.belief.typical;  // off the kink of a one-sided one
     // A straight line may point far beyond where it holds.
-    double off = std::clamp(n.info.off(s.estimate[Eigen::Index(i)]), -farthest * n.info.typical,
-                            farthest * n.info.typical);
+    double off = std::clamp(n.off(s.estimate[Eigen::Index(i)]), -farthest * n.belief.typical,
+                            farthest * n.belief.typical);
     if (std::abs(off) < least) off = n.info.absent < n.info.upper ? least : -least;
-    result[c.effect + "." + n.name] = std::clamp(n.info.at(off), n.info.lower, n.info.upper);
+    result[c.effect + "." + n.name] = std::clamp(n.at(off), n.info.lower, n.info.upper);
   }
   return result;
 }
@@ -31,13 +31,13 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
 /// What a candidate's numbers are believed to be, strong ones by `scale`, with those of `base`.
 SharedPrior believed(SharedPrior base, const Candidate& c, double scale) {
   if (!c.hypothesis) {
-    base.head_pose = HeadPosePrior{scale * c.strengths.front().info.typical,
-                                   scale * c.strengths.back().info.typical};
+    base.head_pose = HeadPosePrior{scale * c.strengths.front().belief.typical,
+                                   scale * c.strengths.back().belief.typical};
   } else {
     const auto add = [&](const std::vector<FreeNumber>& numbers, double by) {
       for (const FreeNumber& n : numbers)
         base.parameters[c.effect + "." + n.name] = {
-            {n.info.absent, by * n.info.typical}, n.info.lower, n.info.upper, n.info.ratio};
+            {n.info.absent, by * n.belief.typical}, n.info.lower, n.info.upper, n.belief.ratio};
     };
     add(c.hypothesis->strengths, scale), add(c.hypothesis->details, 1);
   }
@@ -51,7 +51,7 @@ double scale_of(const Candidate& c, const JointFit& fit) {
   for (const FreeNumber& n : c.strengths)
     for (const SharedEstimate& e : fit.shared)
       if (e.name == c.effect + "." + n.name)
-        scale = std::max(scale, std::abs(n.info.off(e.value)) / n.info.typical);
+        scale = std::max(scale, std::abs(n.off(e.value)) / n.belief.typical);
   return scale;
 }
 
@@ -79,9 +79,9 @@ void rescale(ModelFit& a, const SharedPrior& base, const Candidate& c, double sc
 std::string implausible(const Candidate& c, const ModelFit& a) {
   const Model& m = a.set->model(0);
   for (size_t e = 0; e < m.effects.size(); ++e)
-    if (m.effects[e]->name() == c.effect)
-      return m.effects[e]->implausible(
-          effect_parameters(m, a.fit.conditions.front().parameters, int(e)));
+    if (m.effects[e].name() == c.effect)
+      return genio::implausible(c.effect,
+                                effect_parameters(m, a.fit.conditions.front().parameters, int(e)));
   return {};
 }
 
@@ -117,8 +117,7 @@ ModelFit refit(const ModelFit& base, const Candidate& candidate, const Score& sc
       Vector step(score.signature.cols());
       for (size_t i = 0; i < candidate.strengths.size(); ++i) {
         const FreeNumber& n = candidate.strengths[i];
-        step[Eigen::Index(i)] =
-            n.info.off(options.shared_start.at(candidate.effect + "." + n.name));
+        step[Eigen::Index(i)] = n.off(options.shared_start.at(candidate.effect + "." + n.name));
       }
       const auto start = response(base.fit, evidence.fitted, score.signature * step);
       options.start = &start;

@@ -42,8 +42,6 @@ std::vector<std::vector<std::pair<int, Vec3>>> nodal_gradients(const HexMesh& me
   return result;
 }
 
-bool is_muscles(const Effect& e) { return e.name() == "muscles"; }
-
 }  // namespace
 
 Matrix noise_covariance(const Target& target, const Residuals& r, double length) {
@@ -68,11 +66,10 @@ Matrix noise_covariance(const Target& target, const Residuals& r, double length)
 }
 
 Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matrix& influence) {
-  const Forces f = forces_of(model, c.x, c.parameters, is_muscles);
+  const Forces f = forces_of(model, c.x, c.parameters, [](const Effect& e) { return e.commands; });
   Stiffness k(model.pattern);
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    if (is_muscles(*model.effects[e]))
-      model.effects[e]->add_stiffness(c.x, effect_parameters(model, c.parameters, int(e)), k);
+  for (const auto& e : model.potentials)
+    if (model.effects[size_t(e.effect)].commands) e->add_stiffness(c.x, e.values(c.parameters), k);
   const Matrix turned = k.multiply_columns(influence.transpose());  // 3 n x rows
   const auto gradients = nodal_gradients(model.mesh);
   Matrix result = Matrix::Zero(influence.rows(), influence.cols());

@@ -62,10 +62,8 @@ TEST(Ranking, PutsTheLikeliestFirstAndTheUnlikelyByTheirOdds) {
   EXPECT_EQ(order, (std::vector<std::string>{"first", "second", "far behind", "scored best"}));
 }
 
-ParameterInfo between(double lower, double upper) {
-  ParameterInfo info;
-  info.lower = lower, info.upper = upper;
-  return info;
+FreeNumber between(double lower, double upper) {
+  return {.info = {.lower = lower, .upper = upper}};
 }
 
 TEST(Intervals, AreAsWideAsTheErrorModelMakesThem) {
@@ -93,13 +91,13 @@ TEST(Intervals, AreSkewedAwayFromWhereAnEffectVanishes) {
 }
 
 TEST(Intervals, OfAFactorAreThoseOfItsLogarithm) {
-  ParameterInfo info = between(0.05, 100);
-  info.absent = 1, info.ratio = true;
+  FreeNumber number = between(0.05, 100);
+  number.info.absent = 1, number.belief.ratio = true;
   const SharedEstimate fitted{"stiff_region.factor", "1", 8, 4, 4, 16};
-  const SharedEstimate same = widened(fitted, info, 0);
+  const SharedEstimate same = widened(fitted, number, 0);
   EXPECT_NEAR(same.low, 4, 1e-12);
   EXPECT_NEAR(same.high, 16, 1e-12);
-  const SharedEstimate wider = widened(fitted, info, 0.1 * std::log(8));
+  const SharedEstimate wider = widened(fitted, number, 0.1 * std::log(8));
   EXPECT_NEAR(wider.low * wider.high, 64, 1e-9);
   EXPECT_NEAR(std::log(wider.high / 8), std::hypot(std::log(2), 0.1645 * std::log(8)), 1e-9);
 }

@@ -38,7 +38,7 @@ TEST_F(Scores, SignatureIsTheDerivativeOfTheResiduals) {
     const Matrix exact = signature(*c, *set, f, influences);
     // The first strength a little off its absent value, forces as they are.
     const FreeNumber& n = c->strengths.front();
-    const double h = 1e-3 * n.info.typical;
+    const double h = 1e-3 * n.belief.typical;
     ModelDescription with = c->hypothesis->added_to(set->description());
     with.effects[c->effect][n.keys.front()] = n.info.absent + h;
     const Model m = build_model(with, "with");
