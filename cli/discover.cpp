@@ -24,14 +24,14 @@ struct Options {
 };
 
 void print_table(const Discovery& d) {
-  fmt::print("{}: {}\n", to_string(d.finding), d.message);
+  fmt::print("{}: {}\n", to_string(d.verdict), d.message);
   for (const NamedEffect& e : d.effects) {
     fmt::print("  {}  probability {:.3f}\n", label(e.effect, e.where), e.confidence);
     for (const SharedEstimate& p : e.parameters)
       fmt::print("    {} = {:.4g} {}  (90 %: {:.4g} to {:.4g})\n", p.name, p.value, p.unit, p.low,
                  p.high);
   }
-  for (const Rival& r : d.alternatives)
+  for (const AlternativeEffect& r : d.alternatives)
     fmt::print("  or {}  probability {:.3f}, signature alike {:.2f}\n", label(r.effect, r.where),
                r.probability, r.similarity);
   fmt::print("gap {:.2f} -> {:.2f} mm; held out {:.2f} -> {:.2f} mm; noise {:.2f} mm\n",

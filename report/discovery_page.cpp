@@ -32,7 +32,7 @@ const char* towards(const Vec3& force) {
 std::string effects_part(const Discovery& d) {
   std::string s;
   for (const NamedEffect& e : d.effects) {
-    s += fmt::format("<h3>{}</h3><p>Probability among all accounts tried: {:.3f}.</p>\n<table>",
+    s += fmt::format("<h3>{}</h3><p>Probability among all models tried: {:.3f}.</p>\n<table>",
                      escaped(label(e.effect, e.where)), e.confidence);
     s += "<tr><th>parameter</th><th>value</th><th>sd</th><th>90 % interval</th><th>unit</th></tr>";
     for (const SharedEstimate& p : e.parameters)
@@ -43,7 +43,7 @@ std::string effects_part(const Discovery& d) {
     s += "</table>\n";
   }
   if (d.effects.empty()) s += "<p>No effect is named.</p>\n";
-  for (const Rival& r : d.alternatives) {
+  for (const AlternativeEffect& r : d.alternatives) {
     s += fmt::format(
         "<p>Or {}: probability {:.3f}; its signature is like the first one's by "
         "{:.2f}.",
@@ -62,7 +62,7 @@ std::string effects_part(const Discovery& d) {
 /// How strong what was looked for would have to be for these data to show it.
 std::string detectable_part(const Round& round) {
   std::string s = "<table><tr><th>candidate</th><th>seen nine times in ten from</th></tr>";
-  for (const Ranked& r : round.candidates) {
+  for (const RankedCandidate& r : round.candidates) {
     if (!r.score.visible) {
       s += fmt::format("<tr><td>{}</td><td>never by these data</td></tr>\n",
                        escaped(r.candidate.label()));
@@ -70,10 +70,9 @@ std::string detectable_part(const Round& round) {
     }
     std::vector<std::string> from;
     for (const FreeNumber& n : r.candidate.strengths)
-      from.push_back(fmt::format("{} {} {:.3g}{}", n.name,
-                                 r.candidate.strengths.size() > 1 ? "about" : "off by",
-                                 n.info.at(r.score.detectable * n.info.typical) - n.info.absent,
-                                 after_number(n.info.unit)));
+      from.push_back(fmt::format(
+          "{} {} {:.3g}{}", n.name, r.candidate.strengths.size() > 1 ? "about" : "off by",
+          n.at(r.score.detectable * n.belief.typical) - n.info.absent, after_number(n.info.unit)));
     s += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(r.candidate.label()),
                      escaped(fmt::format("{}", fmt::join(from, " or "))));
   }
@@ -82,7 +81,7 @@ std::string detectable_part(const Round& round) {
 
 std::string families_part(const Discovery& d) {
   std::string s;
-  for (const Family& f : d.families)
+  for (const ConfoundedSet& f : d.confounded_sets)
     s += fmt::format("<p>Never told apart by these data ({}): {}; {}.</p>\n", escaped(f.name),
                      escaped(fmt::format("{}", fmt::join(f.members, ", "))), escaped(f.why));
   return s;
@@ -112,7 +111,7 @@ std::string discovery_page(const Discovery& d, const Observations& o, const std:
       "table{{border-collapse:collapse}}td,th{{border:1px solid #ccc;padding:.3em .7em;"
       "text-align:left}}svg{{max-width:100%;height:auto}}</style></head><body>\n<h1>{0}</h1>\n"
       "<p><b>{1}</b>: {2}.</p>\n",
-      escaped(title), to_string(d.finding), escaped(d.message));
+      escaped(title), to_string(d.verdict), escaped(d.message));
   s += "<h2>Where</h2>\n" + patches_part(d, o);
   if (d.hidden.log_evidence > 0)
     s += fmt::format(

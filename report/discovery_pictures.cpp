@@ -66,17 +66,17 @@ std::string draw_maps(const Discovery& d, const Observations& o) {
 }
 
 std::string draw_ranking(const Round& round, size_t most) {
-  std::vector<const Ranked*> shown;
-  for (const Ranked& r : round.candidates)
+  std::vector<const RankedCandidate*> shown;
+  for (const RankedCandidate& r : round.candidates)
     if (r.score.visible && shown.size() < most) shown.push_back(&r);
   double low = 0, high = 1;
-  for (const Ranked* r : shown)
+  for (const RankedCandidate* r : shown)
     low = std::min(low, r->log_odds), high = std::max(high, r->log_odds);
   constexpr double row = 22, left = 250, width = 380;
   Svg svg(left + width + 80, row * double(shown.size()) + 20);
   const auto x = [&](double v) { return left + (v - low) / (high - low) * width; };
   for (size_t i = 0; i < shown.size(); ++i) {
-    const Ranked& r = *shown[i];
+    const RankedCandidate& r = *shown[i];
     const double y = 10 + row * double(i), v = r.log_odds;
     svg.text(left - 8, y + 14, r.candidate.label(), 12, "end");
     svg.rect(std::min(x(0), x(v)), y + 2, std::max(1.0, std::abs(x(v) - x(0))), row - 6,

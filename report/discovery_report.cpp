@@ -39,7 +39,7 @@ Json where_json(const Discovery& d, const Observations& o) {
 
 Json round_json(const Round& round) {
   Json candidates = Json::array();
-  for (const Ranked& r : round.candidates) {
+  for (const RankedCandidate& r : round.candidates) {
     Json estimate = Json::object();
     for (size_t i = 0; i < r.candidate.strengths.size(); ++i)
       estimate[r.candidate.strengths[i].name] = r.score.estimate[Eigen::Index(i)];
@@ -70,17 +70,17 @@ Json round_json(const Round& round) {
 Json to_json(const Discovery& d, const Observations& o, const std::string& model) {
   Json effects = Json::array(), alternatives = Json::array(), rounds = Json::array();
   for (const NamedEffect& e : d.effects) effects.push_back(effect_json(e));
-  for (const Rival& r : d.alternatives)
+  for (const AlternativeEffect& r : d.alternatives)
     alternatives.push_back({{"name", r.effect},
                             {"where", r.where},
                             {"probability", r.probability},
                             {"similarity", r.similarity},
                             {"experiments", experiments_json(r.apart)}});
   Json families = Json::array();
-  for (const Family& f : d.families)
+  for (const ConfoundedSet& f : d.confounded_sets)
     families.push_back({{"name", f.name}, {"why", f.why}, {"members", f.members}});
   for (const Round& r : d.rounds) rounds.push_back(round_json(r));
-  return {{"verdict", to_string(d.finding)},
+  return {{"verdict", to_string(d.verdict)},
           {"message", d.message},
           {"effects", effects},
           {"alternatives", alternatives},

@@ -14,7 +14,9 @@ double bell(double distance, double radius) {
 
 Tether::Tether(const HexMesh& mesh, const Vec3& patch, double radius, const Vec3& anchor,
                double slack, double stiffness)
-    : anchor_(anchor), slack_(slack), info_{{{"stiffness", "N/m", stiffness, 0, 1e5, 0}}} {
+    : anchor_(anchor),
+      slack_(slack),
+      info_{{{.name = "stiffness", .unit = "N/m", .value = stiffness, .lower = 0, .upper = 1e5}}} {
   double sum = 0;
   for (size_t a = 0; a < mesh.nodes.size(); ++a)
     if (const double w = bell((mesh.nodes[a] - patch).norm(), radius); w > 0)

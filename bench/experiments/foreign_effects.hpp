@@ -3,14 +3,14 @@
 
 #include <array>
 
-#include "forward/effects/effect.hpp"
+#include "forward/effects/potential.hpp"
 #include "forward/geometry/mesh.hpp"
 
 namespace genio::bench {
 
 /// A band of tissue that tethers a patch of the surface to a fixed point and pulls once it is taut:
 /// E = stiffness/2 (|m - anchor| - slack)^2, m the patch's mean. Parameter: stiffness [N/m].
-class Tether final : public Effect {
+class Tether final : public Potential {
  public:
   Tether(const HexMesh& mesh, const Vec3& patch, double radius, const Vec3& anchor, double slack,
          double stiffness);

@@ -28,7 +28,7 @@ constexpr size_t heldout = 1;  // the last one
 
 /// Nodal forces of the muscles alone.
 std::vector<Vec3> muscle_forces(const Model& m, const Positions& x, const Parameters& p) {
-  const Forces f = forces_of(m, x, p, [](const Effect& e) { return e.name() == "muscles"; });
+  const Forces f = forces_of(m, x, p, [](const Effect& e) { return e.commands; });
   std::vector<Vec3> nodal;
   for (size_t a = 0; a < m.mesh.nodes.size(); ++a) nodal.push_back(node_position(f, int(a)));
   return nodal;

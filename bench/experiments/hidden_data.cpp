@@ -127,7 +127,7 @@ std::optional<Hidden> hide(const ModelDescription& tongue, const HiddenCase& wha
     bool found = false;
     for (int tries = 0; tries < most_tries && !found; ++tries) {  // at one place or another
       if (tries > 0 && !c.drawn) break;
-      c = hidden_change(name, tongue, most_used(fitted, tongue), what.forces_known, random);
+      c = hidden_change(name, {tongue, most_used(fitted, tongue), what.forces_known, random});
       found = find_amplitude(tongue, c, fitted, what, what.strength, s);
     }
     if (!found) {

@@ -151,8 +151,8 @@ Json styloglossus(const ModelDescription& tongue, const std::string& source,
   for (Muscle& muscle : parts.muscles)
     if (bilateral_name(muscle.name) == "STY")
       for (auto& s : muscle.segments) s.share = 1.0 / double(muscle.fibres.size());
-  for (auto& effect : parts.effects)
-    if (effect->name() == "muscles") effect = std::make_shared<Muscles>(parts.muscles);
+  for (Effect& effect : parts.effects)
+    if (effect.commands) effect = muscle_commands(parts.muscles);
   const Model seed(std::move(parts));
   Json j;
   for (const auto& [name, model] :

@@ -26,12 +26,12 @@ Json found_json(const Discovery& d) {
                        {"confidence", e.confidence},
                        {"parameters", p}});
   }
-  for (const Rival& r : d.alternatives)
+  for (const AlternativeEffect& r : d.alternatives)
     rivals.push_back({{"effect", r.effect}, {"probability", r.probability}});
   Json rounds = Json::array();
   for (const Round& round : d.rounds) {
     Json best = Json::array();
-    for (const Ranked& r : round.candidates)
+    for (const RankedCandidate& r : round.candidates)
       if (r.refitted || best.size() < 3)
         best.push_back({{"candidate", r.candidate.label()},
                         {"score", r.score.log_evidence},
@@ -42,7 +42,7 @@ Json found_json(const Discovery& d) {
     rounds.push_back(best);
   }
   const auto excess = [&](const Gap& g) { return 1e3 * g.excess; };
-  return {{"verdict", to_string(d.finding)},
+  return {{"verdict", to_string(d.verdict)},
           {"effects", effects},
           {"rivals", rivals},
           {"rounds", rounds},

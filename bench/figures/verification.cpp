@@ -141,7 +141,7 @@ Json tongue_table(const std::string& folder, const Progress& progress) {
   for (int level = 0; level < 2; ++level) {
     ModelParts parts = tissue_problem(mesh, supports, c).parts();
     parts.effects.push_back(
-        std::make_shared<Gravity>(tissue_mass(mesh, d.density), Vec3(0, 0, -9.81)));
+        {.potential = std::make_shared<Gravity>(tissue_mass(mesh, d.density), Vec3(0, 0, -9.81))});
     const Model m(std::move(parts));
     const auto moved = [&](const Positions& x) {
       return Vec3(node_position(x, d.landmarks.tip) - node_position(m.rest, d.landmarks.tip));

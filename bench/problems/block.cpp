@@ -32,9 +32,9 @@ Model block(const std::array<int, 3>& cells) {
     for (const int a : m.mesh.elements[size_t(e)]) weights[3 * a] += 1;
   weights /= weights.sum();
   m.tissue_mass = tissue_mass(m.mesh, 1040);
-  m.effects = {std::make_shared<Elasticity>(m.mesh, constants, true),
-               std::make_shared<DeadLoad>("load", weights, 1.0),
-               std::make_shared<Viscosity>(m.tissue_mass, 40, 0.03)};
+  m.effects = {elastic_tissue(m.mesh, constants, true),
+               {.potential = std::make_shared<DeadLoad>("load", weights, 1.0)},
+               {.dissipation = std::make_shared<Viscosity>(m.tissue_mass, 40, 0.03)}};
   return Model(std::move(m));
 }
 

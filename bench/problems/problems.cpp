@@ -83,18 +83,18 @@ Model tissue_problem(HexMesh mesh, std::vector<Support> supports, const TissueCo
   m.mesh = std::move(mesh);
   m.supports = std::move(supports);
   m.tissue_mass = tissue_mass(m.mesh, 1040);
-  m.effects.push_back(std::make_shared<Elasticity>(m.mesh, constants));
+  m.effects.push_back(elastic_tissue(m.mesh, constants));
   if (weights.size() > 0)
-    m.effects.push_back(std::make_shared<DeadLoad>("load", std::move(weights), force));
+    m.effects.push_back(
+        {.potential = std::make_shared<DeadLoad>("load", std::move(weights), force)});
   return Model(std::move(m));
 }
 
 Model damped(const Model& undamped, double alpha, double beta) {
   const auto constants = effect_parameters(undamped, default_parameters(undamped), 0);
   ModelParts m = undamped.parts();
-  m.effects[0] = std::make_shared<Elasticity>(
-      m.mesh, TissueConstants{constants[0], constants[1], constants[2]}, true);
-  m.effects.push_back(std::make_shared<Viscosity>(m.tissue_mass, alpha, beta));
+  m.effects[0] = elastic_tissue(m.mesh, {constants[0], constants[1], constants[2]}, true);
+  m.effects.push_back({.dissipation = std::make_shared<Viscosity>(m.tissue_mass, alpha, beta)});
   return Model(std::move(m));
 }
 

@@ -25,20 +25,21 @@ std::vector<FittedCondition> response(const JointFit& f, const Errors& errors,
   return moved;
 }
 
-std::vector<FittedCondition> with(const Candidate& candidate,
-                                  const std::vector<SharedEstimate>& estimates, const Study& study,
-                                  const JointFit& f, const Errors& errors,
-                                  const std::vector<Matrix>& influences) {
+std::vector<FittedCondition> with_candidate(const Candidate& candidate,
+                                            const std::vector<SharedEstimate>& estimates,
+                                            const ConditionSet& set, const JointFit& f,
+                                            const Errors& errors,
+                                            const std::vector<Matrix>& influences) {
   Vector step = Vector::Zero(Eigen::Index(candidate.strengths.size()));
   for (size_t i = 0; i < candidate.strengths.size(); ++i)
     for (const SharedEstimate& e : estimates)
       if (e.name == candidate.effect + "." + candidate.strengths[i].name)
-        step[Eigen::Index(i)] = candidate.strengths[i].info.off(e.value);
-  return response(f, errors, signature(candidate, study, f, influences) * step);
+        step[Eigen::Index(i)] = candidate.strengths[i].off(e.value);
+  return response(f, errors, signature(candidate, set, f, influences) * step);
 }
 
-std::vector<FittedCondition> without(const Candidate& candidate, const JointFit& f,
-                                     const Errors& errors) {
+std::vector<FittedCondition> without_candidate(const Candidate& candidate, const JointFit& f,
+                                               const Errors& errors) {
   const FittedCondition& first = f.conditions.front();
   Vector step = Vector::Zero(f.u.size());
   for (const FreeNumber& n : candidate.strengths)

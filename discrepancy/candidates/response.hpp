@@ -13,14 +13,15 @@ std::vector<FittedCondition> response(const JointFit& fit, const Errors& errors,
 
 /// The same where a candidate comes in that was fitted to other conditions, with these estimates.
 /// `influences`: of each condition, see influence().
-std::vector<FittedCondition> with(const Candidate& candidate,
-                                  const std::vector<SharedEstimate>& estimates, const Study& study,
-                                  const JointFit& fit, const Errors& errors,
-                                  const std::vector<Matrix>& influences);
+std::vector<FittedCondition> with_candidate(const Candidate& candidate,
+                                            const std::vector<SharedEstimate>& estimates,
+                                            const ConditionSet& set, const JointFit& fit,
+                                            const Errors& errors,
+                                            const std::vector<Matrix>& influences);
 
 /// The same where a candidate that was fitted along goes back to its absent value: where a fit
 /// without it has to start that is to be compared with it.
-std::vector<FittedCondition> without(const Candidate& candidate, const JointFit& fit,
-                                     const Errors& errors);
+std::vector<FittedCondition> without_candidate(const Candidate& candidate, const JointFit& fit,
+                                               const Errors& errors);
 
 }  // namespace genio

@@ -31,10 +31,10 @@ double normal_quantile(double p) {
 }
 
 FreeNumber pose_number(const char* name, const char* unit, double typical) {
-  FreeNumber n{name, {name}, {}};
-  n.info.name = name, n.info.unit = unit;
-  n.info.lower = -4 * typical, n.info.upper = 4 * typical, n.info.typical = typical;
-  return n;
+  return {.name = name,
+          .keys = {name},
+          .info = {.name = name, .unit = unit, .lower = -4 * typical, .upper = 4 * typical},
+          .belief = {.parameter = name, .typical = typical}};
 }
 
 /// In which direction it may be off its absent value; 0: in either.
@@ -56,16 +56,16 @@ Vector step_on_its_side(const Matrix& h, const Vector& slope,
   return step;
 }
 
-struct Promise {
+struct ScaledStep {
   double scale, gain;  ///< of typical strengths; log evidence
   Vector step;         ///< of the strengths, in typical ones
   Matrix posterior;    ///< inverse of its covariance
 };
 
 /// At the scale of beliefs that gains most.
-Promise promised(const Matrix& information, const Vector& slope,
-                 const std::vector<FreeNumber>& strengths) {
-  Promise best{0, 0, {}, {}};
+ScaledStep best_step(const Matrix& information, const Vector& slope,
+                     const std::vector<FreeNumber>& strengths) {
+  ScaledStep best{0, 0, {}, {}};
   const auto n = slope.size();
   for (double scale = 1; scale <= largest_scale; scale *= 2) {
     const Matrix h = information + Matrix::Identity(n, n) / (scale * scale);
@@ -89,14 +89,16 @@ Forces forces_by(const Hypothesis& h, const FreeNumber& strength, const Model& m
     }
     return df;
   }
-  const auto info = h.made->parameters();
+  if (!h.made.potential) return df;  // no force in statics
+  const Potential& potential = *h.made.potential;
+  const auto info = potential.parameters();
   std::vector<double> values;
   for (const ParameterInfo& i : info) values.push_back(i.value);
-  for (const std::string& name : h.made->borrows())
-    values.push_back(c.parameters[parameter_index(model, name)]);
+  for (const ParameterName& name : potential.borrows())
+    values.push_back(c.parameters[parameter_index(model, name.text())]);
   for (const std::string& key : strength.keys)
     for (size_t i = 0; i < info.size(); ++i)
-      if (info[i].name == key) h.made->add_force_derivative(c.x, values, int(i), df);
+      if (info[i].name == key) potential.add_force_derivative(c.x, values, int(i), df);
   return df;
 }
 
@@ -155,7 +157,7 @@ Matrix Projection::operator()(const Matrix& columns) const {
   return all - basis_ * (basis_.transpose() * all);
 }
 
-Matrix signature(const Candidate& candidate, const Study& study, const JointFit& fit,
+Matrix signature(const Candidate& candidate, const ConditionSet& set, const JointFit& fit,
                  const std::vector<Matrix>& influences) {
   Eigen::Index rows = 0;
   for (const Matrix& a : influences) rows += a.rows();
@@ -172,12 +174,12 @@ Matrix signature(const Candidate& candidate, const Study& study, const JointFit&
     }
     for (Eigen::Index s = 0; s < count; ++s)
       block.col(s) = influences[k] * forces_by(*candidate.hypothesis,
-                                               candidate.strengths[size_t(s)], study.model(k), c);
+                                               candidate.strengths[size_t(s)], set.model(k), c);
   }
   return result;
 }
 
-std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& study,
+std::vector<Score> score(const std::vector<Candidate>& candidates, const ConditionSet& set,
                          const JointFit& fit, const std::vector<Matrix>& influences,
                          const Projection& projection, double level) {
   std::vector<Score> result;
@@ -187,9 +189,9 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     Score s;
     s.candidate = c;
     Vector typical(count);
-    for (Eigen::Index i = 0; i < count; ++i) typical[i] = strengths[size_t(i)].info.typical;
+    for (Eigen::Index i = 0; i < count; ++i) typical[i] = strengths[size_t(i)].belief.typical;
     // By one typical strength.
-    s.signature = signature(candidates[c], study, fit, influences);
+    s.signature = signature(candidates[c], set, fit, influences);
     const Matrix change = s.signature * typical.asDiagonal();
     s.moves = change.squaredNorm() > invisible * invisible;
     const Matrix g = projection(change);
@@ -199,7 +201,7 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
     s.visible = information.trace() > invisible * invisible;
     if (s.visible) {
       const Vector slope = g.transpose() * projection.residuals();
-      const auto [scale, gain, step, posterior] = promised(information, slope, strengths);
+      const auto [scale, gain, step, posterior] = best_step(information, slope, strengths);
       s.scale = scale, s.log_evidence = gain;
       const Eigen::JacobiSVD<Matrix> svd(information, Eigen::ComputeThinU);
       double chi2 = 0;
@@ -220,10 +222,10 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& 
       if (candidates[c].is_switch()) s.log_evidence = 0.5 * s.statistic;
       const Vector sd = posterior.inverse().diagonal().cwiseSqrt();
       for (Eigen::Index i = 0; i < count; ++i) {
-        const ParameterInfo& info = strengths[size_t(i)].info;
-        s.estimate[i] = info.at(step[i] * typical[i]);
-        s.sd[i] = 0.5 * (info.at((step[i] + sd[i]) * typical[i]) -
-                         info.at((step[i] - sd[i]) * typical[i]));
+        const FreeNumber& n = strengths[size_t(i)];
+        s.estimate[i] = n.at(step[i] * typical[i]);
+        s.sd[i] =
+            0.5 * (n.at((step[i] + sd[i]) * typical[i]) - n.at((step[i] - sd[i]) * typical[i]));
       }
       s.direction = g * (step.isZero(0) ? Vector(Vector::Ones(count)) : step);
       s.direction.normalize();

@@ -42,7 +42,7 @@ class Projection {
 
 /// d residuals / d strengths of a candidate at its vanishing value: stacked rows x strengths, a
 /// unit of its own each. `influences`: of each condition, see influence().
-Matrix signature(const Candidate& candidate, const Study& study, const JointFit& fit,
+Matrix signature(const Candidate& candidate, const ConditionSet& set, const JointFit& fit,
                  const std::vector<Matrix>& influences);
 
 struct Score {
@@ -66,7 +66,7 @@ double log_weight_of_scale(double scale);
 
 /// Scores of all candidates, the most likely first. `level`: of the test for all of them together,
 /// for `detectable`.
-std::vector<Score> score(const std::vector<Candidate>& candidates, const Study& study,
+std::vector<Score> score(const std::vector<Candidate>& candidates, const ConditionSet& set,
                          const JointFit& fit, const std::vector<Matrix>& influences,
                          const Projection& projection, double level = 0.01);
 

@@ -38,37 +38,38 @@ Vector expected(const PriorTerms& prior) {
 }
 
 /// An inversion of one condition by itself.
-Answer alone(Study& study, size_t k, int starts) {
+Answer alone(ConditionSet& set, size_t k, int starts) {
   InferOptions options;
-  options.bilateral = study.bilateral(k);
+  options.bilateral = set.bilateral(k);
   options.tolerance = guess_tolerance;
-  return infer_from_starts(study.model(k), study.condition(k).target, study.prior(k),
-                           study.inferring(k), options, {starts});
+  return infer_from_starts(set.model(k), set.condition(k).target, set.prior(k),
+                           set.infer_workspace(k), options, {starts});
 }
 
 /// Inversions of the conditions of which no forces are known; empty answers for the others. One
 /// that fits much worse than the rest may sit in a wrong valley and gets more starts.
-std::vector<Answer> each_alone(Study& study) {
-  std::vector<Answer> result(study.size());
+std::vector<Answer> each_alone(ConditionSet& set) {
+  std::vector<Answer> result(set.size());
   std::vector<double> rms;
-  for (size_t k = 0; k < study.size(); ++k) {
-    if (study.condition(k).forces) continue;
-    result[k] = alone(study, k, 1);
+  for (size_t k = 0; k < set.size(); ++k) {
+    if (set.condition(k).forces) continue;
+    result[k] = alone(set, k, 1);
     if (result[k].activations.size() > 0) rms.push_back(result[k].rms);
   }
   if (rms.empty()) return result;
   std::nth_element(rms.begin(), rms.begin() + long(rms.size() / 2), rms.end());
-  for (size_t k = 0; k < study.size(); ++k)
-    if (!study.condition(k).forces &&
+  for (size_t k = 0; k < set.size(); ++k)
+    if (!set.condition(k).forces &&
         (result[k].activations.size() == 0 || result[k].rms > much_worse * rms[rms.size() / 2]))
-      result[k] = alone(study, k, more_starts);
+      result[k] = alone(set, k, more_starts);
   return result;
 }
 
 /// The unknowns of a part as an inversion by itself has them.
-Vector guessed(Study& study, size_t k, const Answer& answer, JointProblem::Part& part, Vector z) {
+Vector guessed(ConditionSet& set, size_t k, const Answer& answer, JointProblem::Part& part,
+               Vector z) {
   if (answer.activations.size() == 0) return z;
-  const auto own = unknowns_of(study.model(k), study.prior(k), study.bilateral(k));
+  const auto own = unknowns_of(set.model(k), set.prior(k), set.bilateral(k));
   const auto& unknowns = part.objective.unknowns();
   for (size_t i = 0; i < unknowns.size(); ++i)
     for (size_t j = 0; j < own.size(); ++j)
@@ -114,11 +115,11 @@ PriorMass prior_mass(const JointFit& f, const std::vector<Eigen::Index>& open) {
 
 /// Point masses of the prior at rest: a muscle that nothing is known of rests as often as it pulls.
 /// Without them, whatever makes resting muscles seem to pull a little would be believed in.
-Vector spikes_at_rest(const Study& study, const JointFit& f, const std::vector<Eigen::Index>& open,
-                      const PriorMass& mass) {
+Vector spikes_at_rest(const ConditionSet& set, const JointFit& f,
+                      const std::vector<Eigen::Index>& open, const PriorMass& mass) {
   std::vector<bool> may_rest(size_t(f.u.size()), false);
   for (size_t k = 0; k < f.conditions.size(); ++k) {
-    if (study.condition(k).forces) continue;
+    if (set.condition(k).forces) continue;
     const FittedCondition& c = f.conditions[k];
     for (size_t i = 0; i < c.unknowns.size(); ++i)
       if (c.unknowns[i].kind == Unknown::Kind::muscle) may_rest[size_t(c.which[i])] = true;
@@ -172,28 +173,28 @@ Matrix JointFit::jacobian() const {
   return j;
 }
 
-JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
+JointFit fit(ConditionSet& set, const SharedPrior& shared, const Errors* errors,
              const FitOptions& options) {
-  if (options.start && options.start->size() != study.size()) {
+  if (options.start && options.start->size() != set.size()) {
     JointFit nothing;
     nothing.message = "nothing to start from";
     return nothing;
   }
-  JointProblem problem(study, shared, errors, options);
+  JointProblem problem(set, shared, errors, options);
   JointFit f;
   f.lower = problem.lower(), f.upper = problem.upper(), f.own = problem.own();
   Vector u = Vector::Zero(f.lower.size());
-  const auto answers = options.start ? std::vector<Answer>() : each_alone(study);
+  const auto answers = options.start ? std::vector<Answer>() : each_alone(set);
   for (size_t k = 0; k < problem.size(); ++k) {
     auto& part = problem.part(k);
     const Vector z = expected(part.objective.prior());
     u(part.which) = options.start ? start_of((*options.start)[k], part.objective.unknowns(),
                                              options.shared_start, z)
-                                  : guessed(study, k, answers[k], part, z);
+                                  : guessed(set, k, answers[k], part, z);
   }
   u = u.cwiseMax(f.lower).cwiseMin(f.upper);
   const DescentResult r =
-      descend(problem, u, {most_steps, options.precision, {}, options.hopeless, roughness});
+      descend(problem, u, {most_steps, options.precision, {}, options.give_up_above, roughness});
   f.converged = r.converged, f.message = r.message, f.iterations = r.iterations;
   if (r.u.size() == 0) return f;
   f.u = r.u, f.value = r.value;
@@ -204,7 +205,7 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
     const auto* p = part.objective.derivatives(z);
     if (!p) {
       f.converged = false;
-      f.message = fmt::format("{}: {}", study.condition(k).name, part.objective.last_failure());
+      f.message = fmt::format("{}: {}", set.condition(k).name, part.objective.last_failure());
       return f;
     }
     f.conditions.push_back({part.objective.unknowns(), part.which, z, p->equilibrium.x,
@@ -225,11 +226,11 @@ JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
   for (Eigen::Index i = 0; i < slope.size(); ++i)
     if (pressed(density, i) == 0) density.slope[i] = 0;
   const PriorMass mass = prior_mass(f, open);
-  const Vector spikes = spikes_at_rest(study, f, open, mass);
+  const Vector spikes = spikes_at_rest(set, f, open, mass);
   const BoxIntegral all = integral(density, spikes);
   f.log_evidence = shared.log_weight - f.value + all.log - mass.log_all -
                    double((spikes.array() > 0).count()) * std::numbers::ln2;
-  summarise_shared(f, study.model(0), all, open);
+  summarise_shared(f, set.model(0), all, open);
   return f;
 }
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "discrepancy/conditions/study.hpp"
+#include "discrepancy/conditions/condition_set.hpp"
 #include "inverse/target/comparison.hpp"
 
 namespace genio {
@@ -75,14 +75,14 @@ struct FitOptions {
   const std::vector<FittedCondition>* start = nullptr;
   std::map<std::string, double> shared_start = {};  ///< of shared parameters, in their own unit
   std::map<std::string, double> fixed = {};         ///< shared parameters that stay as they are
-  double precision = 0.5;  ///< of the log posterior: enough to compare accounts
+  double precision = 0.5;  ///< of the log posterior: enough to compare models
   /// Gives up once minus the log posterior does not come below this.
-  double hopeless = std::numeric_limits<double>::infinity();
+  double give_up_above = std::numeric_limits<double>::infinity();
 };
 
 /// The unknowns that maximise the posterior under the given errors (null: independent noise), by
 /// Ipopt from equilibrium to equilibrium (descend()).
-JointFit fit(Study& study, const SharedPrior& shared, const Errors* errors,
+JointFit fit(ConditionSet& set, const SharedPrior& shared, const Errors* errors,
              const FitOptions& options = {});
 
 }  // namespace genio

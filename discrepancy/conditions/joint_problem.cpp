@@ -59,12 +59,12 @@ class QuadraticModel final : public LocalModel {
 
 constexpr int start_factorizations = 60;  // near a known shape more lead nowhere
 
-InferOptions starting(const Study& study, size_t k, const FitOptions& fit) {
+InferOptions starting(const ConditionSet& set, size_t k, const FitOptions& fit) {
   InferOptions options;
-  options.bilateral = study.bilateral(k);
+  options.bilateral = set.bilateral(k);
   if (fit.start) {
-    // What is held here may have moved under the account that the start is from: an open jaw.
-    const Model& m = study.model(k);
+    // What is held here may have moved under the model that the start is from: an open jaw.
+    const Model& m = set.model(k);
     options.start_shape = m.rest + m.dofs.expand(m.dofs.pick((*fit.start)[k].x - m.rest));
     options.start_factorizations = start_factorizations;
   }
@@ -73,15 +73,15 @@ InferOptions starting(const Study& study, size_t k, const FitOptions& fit) {
 
 }  // namespace
 
-JointProblem::JointProblem(Study& study, const SharedPrior& shared, const Errors* errors,
+JointProblem::JointProblem(ConditionSet& set, const SharedPrior& shared, const Errors* errors,
                            const FitOptions& options)
     : errors_(errors) {
   const bool corrected = errors && !errors->corrections.empty();
-  for (size_t k = 0; k < study.size(); ++k) {
-    Prior prior = study.prior(k);
+  for (size_t k = 0; k < set.size(); ++k) {
+    Prior prior = set.prior(k);
     prior.parameters = shared.parameters;
     if (shared.head_pose) prior.head_pose = shared.head_pose;
-    parts_.push_back(std::make_unique<Part>(study, k, prior, starting(study, k, options),
+    parts_.push_back(std::make_unique<Part>(set, k, prior, starting(set, k, options),
                                             corrected ? errors->corrections[k].added : Vector()));
     const bool pose_is_shared = shared.head_pose.has_value();
     for (const Unknown& c : parts_.back()->objective.unknowns())

@@ -14,11 +14,11 @@ Vector stacked(const std::vector<Vector>& parts);
 class JointProblem final : public MisfitProblem {
  public:
   struct Part {
-    Part(Study& study, size_t k, const Prior& prior, InferOptions how, Vector off)
-        : comparison(study.model(k), study.condition(k).target, surface_smoothing),
+    Part(ConditionSet& set, size_t k, const Prior& prior, InferOptions how, Vector off)
+        : comparison(set.model(k), set.condition(k).target, surface_smoothing),
           correction(std::move(off)),
           options(std::move(how)),
-          objective(study.model(k), comparison, prior, options, study.workspace(k)) {}
+          objective(set.model(k), comparison, prior, options, set.workspace(k)) {}
     /// Residuals of a point with the mesh's own error taken off.
     Vector residuals(const ObjectivePoint& point) const {
       return correction.size() == 0 ? point.residuals.values : point.residuals.values + correction;
@@ -30,7 +30,7 @@ class JointProblem final : public MisfitProblem {
     std::vector<int> which;
   };
 
-  JointProblem(Study& study, const SharedPrior& shared, const Errors* errors,
+  JointProblem(ConditionSet& set, const SharedPrior& shared, const Errors* errors,
                const FitOptions& options);
 
   const Vector& lower() const override { return lower_; }

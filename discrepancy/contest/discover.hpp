@@ -9,7 +9,7 @@
 namespace genio {
 
 struct DiscoverOptions {
-  ModelDoubt doubt;
+  ErrorModel error_model;
   /// Correct the shapes for the mesh's own error; false where the data are of the same mesh.
   bool correct_mesh = true;
   int refits = 5;        ///< candidates refitted a round

@@ -9,11 +9,11 @@
 
 namespace genio {
 
-enum class Finding { named, ambiguous, none, unknown };
-const char* to_string(Finding finding);
+enum class DiscoveryVerdict { named, ambiguous, none, unknown };
+const char* to_string(DiscoveryVerdict verdict);
 /// In words; `p`, `heldout`: probability of residuals as large as those left, nothing missing, in
 /// the conditions fitted and in those held out.
-std::string explanation(Finding finding, double p, double heldout);
+std::string message_of(DiscoveryVerdict verdict, double p, double heldout);
 
 /// The gap between data and shapes, root mean square over points [m]: as it is, and what exceeds
 /// the noise.
@@ -31,17 +31,18 @@ struct NamedEffect {
 };
 
 /// An estimate whose number says what an effect does only up to a standard deviation of `more`, in
-/// the terms of its `typical`. What can be on one side of `absent` only is log-normal above.
-SharedEstimate doubted(SharedEstimate estimate, const ParameterInfo& info, double more);
+/// the terms of its typical value. What can be on one side of `absent` only is log-normal above.
+SharedEstimate widened(SharedEstimate estimate, const FreeNumber& number, double more);
 
 /// The effects found, one after another, with their parameters as fitted and doubted: a unit of an
 /// effect does its work only up to a part, as a newton of a muscle does (their course and the
 /// tissue about them are not the model's), and a place is found as well as the mesh lets it be.
 std::vector<NamedEffect> named(const JointFit& fit, const std::vector<Candidate>& found,
-                               const std::vector<double>& confidence, const ModelDoubt& doubt);
+                               const std::vector<double>& confidence,
+                               const ErrorModel& error_model);
 
 /// Another account of the same data.
-struct Rival {
+struct AlternativeEffect {
   std::string effect, where;
   double probability = 0;
   double similarity = 0;               ///< cosine between its signature and the best one's
@@ -49,7 +50,7 @@ struct Rival {
 };
 
 /// One candidate of one round, as scored and, for the best, as refitted.
-struct Ranked {
+struct RankedCandidate {
   Candidate candidate;
   Score score;
   bool refitted = false;
@@ -60,28 +61,28 @@ struct Ranked {
 };
 
 struct Round {
-  std::vector<Ranked> candidates;  ///< most likely first
-  double nothing = 0;              ///< probability that nothing (more) is missing
-  double chi_square = 0, dof = 0;  ///< of the residuals before
+  std::vector<RankedCandidate> candidates;  ///< most likely first
+  double nothing = 0;                       ///< probability that nothing (more) is missing
+  double chi_square = 0, dof = 0;           ///< of the residuals before
   double seconds_scoring = 0;
 };
 
 /// Accounts that these data cannot tell apart whatever happens, and so never name.
-struct Family {
+struct ConfoundedSet {
   std::string name, why;
   std::vector<std::string> members;
 };
 
 /// Those of a study: the scale of stiffness and forces where no force is known, and candidates
 /// whose every trace the unknown forces can make (`first`: the first round's).
-std::vector<Family> families(const Observations& observations, const Round& first);
+std::vector<ConfoundedSet> confounded_sets(const Observations& observations, const Round& first);
 
 struct Discovery {
-  Finding finding = Finding::none;
+  DiscoveryVerdict verdict = DiscoveryVerdict::none;
   std::string message;
   std::vector<NamedEffect> effects;
-  std::vector<Rival> alternatives;
-  std::vector<Family> families;
+  std::vector<AlternativeEffect> alternatives;
+  std::vector<ConfoundedSet> confounded_sets;
   Gap before, after, heldout_before, heldout_after;
   double noise = 0;         ///< [m]
   double fit_tail = 1;      ///< probability of residuals as large as those left, nothing missing

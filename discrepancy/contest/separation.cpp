@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "discrepancy/conditions/study.hpp"
+#include "discrepancy/conditions/condition_set.hpp"
 #include "discrepancy/errors/error_model.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/statics/sensitivity.hpp"
@@ -130,7 +130,7 @@ std::string Experiment::label() const {
   return s;
 }
 
-std::vector<Experiment> experiments(const Explanation& one, const Explanation& other,
+std::vector<Experiment> experiments(const PosedModel& one, const PosedModel& other,
                                     const Observations& o, size_t most) {
   const Condition& first = o.conditions.front();
   const double known = error_of_forces(first);

@@ -11,7 +11,7 @@
 namespace genio {
 
 /// One account of the data: a tongue, and how its data would be laid.
-struct Explanation {
+struct PosedModel {
   ModelDescription model;
   HeadPose pose;
 };
@@ -30,7 +30,7 @@ struct Experiment {
 /// for it; the best first. Measured as the observations' first condition is. `log_odds` is half the
 /// squared difference, what a likelihood ratio brings on average. Postures that have no equilibrium
 /// are left out.
-std::vector<Experiment> experiments(const Explanation& one, const Explanation& other,
+std::vector<Experiment> experiments(const PosedModel& one, const PosedModel& other,
                                     const Observations& observations, size_t most = 5);
 
 }  // namespace genio

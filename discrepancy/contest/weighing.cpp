@@ -35,7 +35,7 @@ size_t weigh(Round& round, const std::vector<size_t>& refitted) {
   size_t best = 0;
   double highest = -1;
   for (size_t i : refitted) {
-    Ranked& r = round.candidates[i];
+    RankedCandidate& r = round.candidates[i];
     r.probability = std::exp(r.log_odds - most) / sum;
     if (r.probability > highest) highest = r.probability, best = i;
   }
@@ -43,10 +43,11 @@ size_t weigh(Round& round, const std::vector<size_t>& refitted) {
 }
 
 void rank(Round& round) {
-  std::stable_sort(
-      round.candidates.begin(), round.candidates.end(), [](const Ranked& a, const Ranked& b) {
-        return std::tie(a.probability, a.log_odds) > std::tie(b.probability, b.log_odds);
-      });
+  std::stable_sort(round.candidates.begin(), round.candidates.end(),
+                   [](const RankedCandidate& a, const RankedCandidate& b) {
+                     return std::tie(a.probability, a.log_odds) >
+                            std::tie(b.probability, b.log_odds);
+                   });
 }
 
 }  // namespace genio

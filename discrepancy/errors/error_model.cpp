@@ -42,8 +42,6 @@ std::vector<std::vector<std::pair<int, Vec3>>> nodal_gradients(const HexMesh& me
   return result;
 }
 
-bool is_muscles(const Effect& e) { return e.name() == "muscles"; }
-
 }  // namespace
 
 Matrix noise_covariance(const Target& target, const Residuals& r, double length) {
@@ -68,11 +66,10 @@ Matrix noise_covariance(const Target& target, const Residuals& r, double length)
 }
 
 Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matrix& influence) {
-  const Forces f = forces_of(model, c.x, c.parameters, is_muscles);
+  const Forces f = forces_of(model, c.x, c.parameters, [](const Effect& e) { return e.commands; });
   Stiffness k(model.pattern);
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    if (is_muscles(*model.effects[e]))
-      model.effects[e]->add_stiffness(c.x, effect_parameters(model, c.parameters, int(e)), k);
+  for (const auto& e : model.potentials)
+    if (model.effects[size_t(e.effect)].commands) e->add_stiffness(c.x, e.values(c.parameters), k);
   const Matrix turned = k.multiply_columns(influence.transpose());  // 3 n x rows
   const auto gradients = nodal_gradients(model.mesh);
   Matrix result = Matrix::Zero(influence.rows(), influence.cols());
@@ -90,13 +87,14 @@ Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matri
   return result;
 }
 
-Covariance fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis) {
+Covariance fibre_covariance(const Model& model, const ErrorModel& error_model, int axis) {
   // A mean angle of two Gaussian parts of sd s is s sqrt(pi / 2); the slope of a Gaussian field of
   // sd a and length l is a / l.
-  const double slope = doubt.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
-  const double variance = std::pow(slope * doubt.fibre_length, 2);
-  const double scale = 0.5 / (doubt.fibre_length * doubt.fibre_length);
-  const double alike_part = doubt.fibres_alike;
+  const double slope =
+      error_model.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
+  const double variance = std::pow(slope * error_model.fibre_length, 2);
+  const double scale = 0.5 / (error_model.fibre_length * error_model.fibre_length);
+  const double alike_part = error_model.fibres_alike;
   const auto right_of = [](const Vec3& x) { return Vec3(x[0], std::abs(x[1]), x[2]); };
   const auto side = [](const Vec3& x) {
     return std::abs(x[1]) < on_plane ? 0.0 : std::copysign(1.0, x[1]);
@@ -110,8 +108,8 @@ Covariance fibre_covariance(const Model& model, const ModelDoubt& doubt, int axi
   };
 }
 
-Matrix efficacy_covariance(const Study& study, const JointFit& fit,
-                           const std::vector<Matrix>& influences, const ModelDoubt& doubt) {
+Matrix efficacy_covariance(const ConditionSet& set, const JointFit& fit,
+                           const std::vector<Matrix>& influences, const ErrorModel& error_model) {
   Eigen::Index rows = 0, first = 0;
   for (const Matrix& a : influences) rows += a.rows();
   std::map<std::string, Vector> each, both;  // residuals of all conditions by a muscle's scale
@@ -120,7 +118,7 @@ Matrix efficacy_covariance(const Study& study, const JointFit& fit,
   };
   for (size_t k = 0; k < influences.size(); first += influences[k++].rows()) {
     const FittedCondition& c = fit.conditions[k];
-    const Model& model = study.model(k);
+    const Model& model = set.model(k);
     std::vector<int> pulling;
     for (const Muscle& m : model.muscles)
       if (const int p = parameter_index(model, "muscles." + m.name); c.parameters[p] > 0)
@@ -133,16 +131,17 @@ Matrix efficacy_covariance(const Study& study, const JointFit& fit,
   }
   for (const auto& [name, r] : each) add(both, bilateral_name(name), 0, r);
   Matrix covariance = Matrix::Zero(rows, rows);
-  const double variance = doubt.efficacy_sd * doubt.efficacy_sd;
+  const double variance = error_model.efficacy_sd * error_model.efficacy_sd;
   for (const auto& [name, r] : both)
-    covariance += doubt.fibres_alike * variance * r * r.transpose();
+    covariance += error_model.fibres_alike * variance * r * r.transpose();
   for (const auto& [name, r] : each)
-    covariance += (1 - doubt.fibres_alike) * variance * r * r.transpose();
+    covariance += (1 - error_model.fibres_alike) * variance * r * r.transpose();
   return covariance;
 }
 
-Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<Matrix>& influences,
-                           const Corrections& corrections, const ModelDoubt& doubt) {
+Matrix residual_covariance(ConditionSet& set, const JointFit& fit,
+                           const std::vector<Matrix>& influences, const Corrections& corrections,
+                           const ErrorModel& error_model) {
   Eigen::Index rows = 0;
   std::vector<Eigen::Index> first;
   for (const Matrix& a : influences) first.push_back(rows), rows += a.rows();
@@ -151,13 +150,13 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
   Matrix turned(rows, influences.front().cols());
   for (size_t k = 0; k < influences.size(); ++k) {
     const FittedCondition& c = fit.conditions[k];
-    const Model& model = study.model(k);
+    const Model& model = set.model(k);
     const auto count = influences[k].rows();
     auto block = covariance.block(first[k], first[k], count, count);
     // By the normals of the finer tongue, which are nearer to the true ones.
-    block += noise_covariance(study.condition(k).target,
+    block += noise_covariance(set.condition(k).target,
                               corrections.empty() ? c.residuals : corrections[k].exact,
-                              study.observations().noise_correlation);
+                              set.observations().noise_correlation);
     turned.middleRows(first[k], count) = fibre_influence(model, c, influences[k]);
     Vector by_scale = Vector::Zero(c.x.size());
     for (const char* name : {"elasticity.a10", "elasticity.a20"}) {
@@ -173,13 +172,14 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
         size += std::pow(added[i] / c.residuals.rows[size_t(i)].scale, 2) / double(count);
     }
     block += model_error_covariance(
-        c.residuals, std::max(doubt.least_mesh_error, doubt.correction_sd * std::sqrt(size)),
-        doubt.mesh_length);
+        c.residuals,
+        std::max(error_model.least_mesh_error, error_model.correction_sd * std::sqrt(size)),
+        error_model.mesh_length);
     for (Eigen::Index i = 0; i < count; ++i)
-      block(i, i) += std::pow(doubt.local_error * c.residuals.rows[size_t(i)].scale, 2);
+      block(i, i) += std::pow(error_model.local_error * c.residuals.rows[size_t(i)].scale, 2);
   }
   const auto root = [&](int axis) {
-    return covariance_root(turned.cols() / 3, fibre_covariance(study.model(0), doubt, axis),
+    return covariance_root(turned.cols() / 3, fibre_covariance(set.model(0), error_model, axis),
                            root_accuracy);
   };
   const Matrix in_plane = root(0), across = root(1);
@@ -188,9 +188,9 @@ Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<
     const Matrix part = along * (axis == 1 ? across : in_plane);
     covariance += part * part.transpose();
   }
-  covariance += efficacy_covariance(study, fit, influences, doubt);
-  covariance += std::pow(doubt.tissue_sd, 2) * tissue * tissue.transpose();
-  covariance += std::pow(doubt.correction_sd, 2) * mesh * mesh.transpose();
+  covariance += efficacy_covariance(set, fit, influences, error_model);
+  covariance += std::pow(error_model.tissue_sd, 2) * tissue * tissue.transpose();
+  covariance += std::pow(error_model.correction_sd, 2) * mesh * mesh.transpose();
   return covariance;
 }
 

@@ -8,7 +8,7 @@
 namespace genio {
 
 /// What is believed of a model that lacks nothing.
-struct ModelDoubt {
+struct ErrorModel {
   double fibre_turn = 5;           ///< mean angle between true and modelled fibres [deg]
   double fibre_length = 8e-3;      ///< over which that angle stays alike [m]
   double fibres_alike = 0.75;      ///< part of a variance that is alike left and right
@@ -35,16 +35,17 @@ Matrix fibre_influence(const Model& model, const FittedCondition& condition,
 /// Covariance of the fibres' displacements along x, y or z between the model's nodes [m^2]: two
 /// Gaussian fields, one alike left and right and one of each side's own. Along x as along z. Not to
 /// outlive the model.
-Covariance fibre_covariance(const Model& model, const ModelDoubt& doubt, int axis);
+Covariance fibre_covariance(const Model& model, const ErrorModel& error_model, int axis);
 
 /// Covariance of all residuals, one condition's after another's, from muscles that do more or less
 /// for their force than the model has it, in all conditions alike.
-Matrix efficacy_covariance(const Study& study, const JointFit& fit,
-                           const std::vector<Matrix>& influences, const ModelDoubt& doubt);
+Matrix efficacy_covariance(const ConditionSet& set, const JointFit& fit,
+                           const std::vector<Matrix>& influences, const ErrorModel& error_model);
 
 /// The covariance of all residuals of a fit, one condition's after another's. `influences`: of each
 /// condition, see influence().
-Matrix residual_covariance(Study& study, const JointFit& fit, const std::vector<Matrix>& influences,
-                           const Corrections& corrections, const ModelDoubt& doubt);
+Matrix residual_covariance(ConditionSet& set, const JointFit& fit,
+                           const std::vector<Matrix>& influences, const Corrections& corrections,
+                           const ErrorModel& error_model);
 
 }  // namespace genio

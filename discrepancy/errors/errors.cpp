@@ -8,13 +8,13 @@ namespace genio {
 namespace {
 
 /// What smooth distances are off by: from a curved surface they are longer.
-Corrections smoothing(const Study& study, const JointFit& fit) {
+Corrections smoothing(const ConditionSet& set, const JointFit& fit) {
   Corrections result;
-  for (size_t k = 0; k < study.size(); ++k) {
+  for (size_t k = 0; k < set.size(); ++k) {
     const FittedCondition& c = fit.conditions[k];
     const HeadPose pose = head_pose(c.unknowns, c.z);
     const auto residuals = [&](double smooth) {
-      return Comparison(study.model(k), study.condition(k).target, smooth)(c.x, pose);
+      return Comparison(set.model(k), set.condition(k).target, smooth)(c.x, pose);
     };
     Residuals exact = residuals(0);
     Vector added = exact.values - residuals(surface_smoothing).values;
@@ -30,11 +30,11 @@ double cost(const JointFit& f, const Errors& errors) {
 
 }  // namespace
 
-Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
-                 const ModelDoubt& doubt) {
+Errors errors_at(ConditionSet& set, const JointFit& fit, Refinement* refinement,
+                 const ErrorModel& error_model) {
   Errors e;
-  e.corrections = refinement ? refinement->corrections(study, fit) : smoothing(study, fit);
-  e.matrix = residual_covariance(study, fit, influences_of(study, fit), e.corrections, doubt);
+  e.corrections = refinement ? refinement->corrections(set, fit) : smoothing(set, fit);
+  e.matrix = residual_covariance(set, fit, influences_of(set, fit), e.corrections, error_model);
   e.covariance.compute(e.matrix);
   return e;
 }

@@ -8,8 +8,8 @@ namespace genio {
 
 /// Errors at a fit; the mesh's own are found anew (null: none but what smooth distances are off
 /// by).
-Errors errors_at(Study& study, const JointFit& fit, Refinement* refinement,
-                 const ModelDoubt& doubt);
+Errors errors_at(ConditionSet& set, const JointFit& fit, Refinement* refinement,
+                 const ErrorModel& error_model);
 
 /// True where a fit under new errors does not go with them as the last did with its own: minus the
 /// log posterior of fit and errors grew by more than `by`. Where a shape is about to snap, errors

@@ -89,9 +89,9 @@ bool Refinement::holds(const FittedCondition& c, size_t condition) const {
          (k->second.fitted - c.x).cwiseAbs().maxCoeff() < nearby;
 }
 
-bool Refinement::holds(const Study& study, const JointFit& fit) const {
+bool Refinement::holds(const ConditionSet& set, const JointFit& fit) const {
   for (size_t k = 0; k < fit.conditions.size(); ++k)
-    if (!holds(fit.conditions[k], study.members()[k])) return false;
+    if (!holds(fit.conditions[k], set.members()[k])) return false;
   return true;
 }
 
@@ -110,7 +110,7 @@ Positions Refinement::nearest_fine(const Tongues& t, const Positions& rest,
 Correction Refinement::correction(const Model& fitted, const FittedCondition& c, size_t condition) {
   const Condition& seen = observations_.conditions[condition];
   auto& made = tongues_[seen.effects];
-  if (!made) made = std::make_unique<Tongues>(under(description_, seen.effects));
+  if (!made) made = std::make_unique<Tongues>(with_effects(description_, seen.effects));
   Tongues& t = *made;
   SolveOptions options;
   options.tolerance = tolerance;
@@ -143,13 +143,13 @@ Correction Refinement::correction(const Model& fitted, const FittedCondition& c,
   return known.correction;
 }
 
-Corrections Refinement::corrections(const Study& study, const JointFit& fit) {
+Corrections Refinement::corrections(const ConditionSet& set, const JointFit& fit) {
   Corrections result;
   for (size_t k = 0; k < fit.conditions.size(); ++k) {
-    const size_t condition = study.members()[k];
+    const size_t condition = set.members()[k];
     result.push_back(holds(fit.conditions[k], condition)
                          ? known_.at(condition).correction
-                         : correction(study.model(k), fit.conditions[k], condition));
+                         : correction(set.model(k), fit.conditions[k], condition));
   }
   return result;
 }

@@ -15,12 +15,12 @@ class Refinement {
   Refinement(ModelDescription description, const Refinement& before);
   /// For every condition: the residuals of the same problem on a mesh with every element split in
   /// eight, less those of this mesh by smooth distances, in units of the noise; on half a tongue,
-  /// with the mean forces of both sides, where the tongue is symmetric. Parameters of the study's
+  /// with the mean forces of both sides, where the tongue is symmetric. Parameters of the set's
   /// models that this description has not are left out. Zero where the finer problem has no
   /// solution. What is known from a shape nearby is not computed again.
-  Corrections corrections(const Study& study, const JointFit& fit);
+  Corrections corrections(const ConditionSet& set, const JointFit& fit);
   /// True where all of these corrections are known from shapes nearby.
-  bool holds(const Study& study, const JointFit& fit) const;
+  bool holds(const ConditionSet& set, const JointFit& fit) const;
 
  private:
   struct Tongues {

@@ -79,8 +79,8 @@ std::vector<MapPatch> patches_of(const std::vector<MapPoint>& points) {
 
 }  // namespace
 
-ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& covariance, double rate,
-                     double reach) {
+ResidualMap localise(const ConditionSet& set, const JointFit& fit, const Matrix& covariance,
+                     double rate, double reach) {
   ResidualMap map;
   map.false_discovery_rate = rate;
   const Vector r = fit.residuals();
@@ -91,12 +91,12 @@ ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& cova
   Eigen::Index row = 0;
   for (size_t k = 0; k < fit.conditions.size(); ++k) {
     const FittedCondition& c = fit.conditions[k];
-    const TongueLine line(study.model(k));
+    const TongueLine line(set.model(k));
     for (const auto& of : c.residuals.rows) {
       const double z = mean[row] / std::sqrt(std::max(1e-12, variance[row]));
       const Vec3 place = c.residuals.places[size_t(of.point)];
       map.points.push_back(
-          {study.members()[k], place, r[row] / of.scale, z, false, place_name(line, c.x, place)});
+          {set.members()[k], place, r[row] / of.scale, z, false, place_name(line, c.x, place)});
       p.push_back(std::erfc(std::abs(z) / std::numbers::sqrt2));
       ++row;
     }
@@ -107,9 +107,9 @@ ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& cova
   return map;
 }
 
-HiddenForce hidden_force(const Study& study, const std::vector<Matrix>& influences,
+HiddenForce hidden_force(const ConditionSet& set, const std::vector<Matrix>& influences,
                          const Projection& projection, double length) {
-  const HexMesh& mesh = study.model(0).mesh;
+  const HexMesh& mesh = set.model(0).mesh;
   const auto n = Eigen::Index(mesh.nodes.size());
   // A body force acts on the volume that a node stands for.
   const Vector volume = tissue_mass(mesh, 1.0) * Vector::Ones(n);
@@ -172,7 +172,7 @@ HiddenForce hidden_force(const Study& study, const std::vector<Matrix>& influenc
     result.centre += f.norm() * mesh.nodes[size_t(a)];
   }
   if (result.total > 0) result.centre /= result.total;
-  const Model& model = study.model(0);
+  const Model& model = set.model(0);
   result.region = place_name(TongueLine(model), model.rest, result.centre);
   return result;
 }

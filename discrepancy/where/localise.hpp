@@ -34,7 +34,7 @@ struct ResidualMap {
 /// by its covariance after the fit (noise correlated along contours, fibres, mesh); Benjamini &
 /// Hochberg (1995) hold the rate of false discoveries over all points, whose positive correlation
 /// their bound allows (Benjamini & Yekutieli 2001).
-ResidualMap localise(const Study& study, const JointFit& fit, const Matrix& covariance,
+ResidualMap localise(const ConditionSet& set, const JointFit& fit, const Matrix& covariance,
                      double false_discovery_rate = 0.05, double reach = 5e-3);
 
 /// A force field that would close what gap the muscles leave.
@@ -51,7 +51,7 @@ struct HiddenForce {
 /// The most likely body force field, a Gaussian field of length `length` [m] of which half is
 /// common to all conditions, its size by maximal evidence: the smallest that explains the residuals
 /// through the stiffness at hand (`influences`) after the free unknowns have done their best.
-HiddenForce hidden_force(const Study& study, const std::vector<Matrix>& influences,
+HiddenForce hidden_force(const ConditionSet& set, const std::vector<Matrix>& influences,
                          const Projection& projection, double length = 0.012);
 
 }  // namespace genio

@@ -11,6 +11,6 @@ struct ShapeLine {
 };
 
 /// One line a condition of the fit.
-std::vector<ShapeLine> shape_lines(const Study& study, const JointFit& fit);
+std::vector<ShapeLine> shape_lines(const ConditionSet& set, const JointFit& fit);
 
 }  // namespace genio

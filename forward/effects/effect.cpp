@@ -1,30 +1,31 @@
 #include "forward/effects/effect.hpp"
 
+#include <stdexcept>
+
 namespace genio {
 
-std::vector<Strength> Effect::strengths() const {
-  std::vector<Strength> result;
-  const auto info = parameters();
-  for (size_t k = 0; k < info.size(); ++k)
-    if (info[k].typical > 0 && !info[k].detail) result.push_back({"", {{int(k)}}});
+std::vector<const Term*> Effect::terms() const {
+  std::vector<const Term*> result;
+  for (const Term* term :
+       {static_cast<const Term*>(potential.get()), static_cast<const Term*>(dissipation.get()),
+        static_cast<const Term*>(inertia.get()), static_cast<const Term*>(filter.get())})
+    if (term) result.push_back(term);
   return result;
 }
 
-void Effect::add_viscous_force_slope(const Positions& x, const Vector& v, EffectParameters p,
-                                     const Matrix& along, Stiffness&, Matrix& df) const {
-  constexpr double longest = 1e-7;  // displacement of a node [m]
-  const auto viscous = [&](const Positions& at) {
-    Forces f = Forces::Zero(at.size());
-    add_viscous_force(at, v, p, f);
-    return f;
-  };
-  if (viscous(x).isZero(0)) return;
-  for (Eigen::Index c = 0; c < along.cols(); ++c) {
-    const double size = along.col(c).cwiseAbs().maxCoeff();
-    if (size == 0) continue;
-    const double h = longest / size;
-    df.col(c) += (viscous(x + h * along.col(c)) - viscous(x - h * along.col(c))) / (2 * h);
+std::string_view Effect::name() const {
+  const auto all = terms();
+  if (all.empty()) throw std::logic_error("an effect without any term has no name");
+  return all.front()->name();
+}
+
+std::vector<ParameterInfo> Effect::parameters() const {
+  std::vector<ParameterInfo> result;
+  for (const Term* term : terms()) {
+    const auto own = term->parameters();
+    result.insert(result.end(), own.begin(), own.end());
   }
+  return result;
 }
 
 }  // namespace genio

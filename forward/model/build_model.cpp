@@ -23,9 +23,7 @@ Model build_model(const ModelDescription& d, const std::string& source) {
     muscle.segments = share_by_volume(d.mesh, muscle.fibres, muscle.elements);
   model.tissue_mass = tissue_mass(d.mesh, d.density);
   const Anatomy anatomy{d, source, model.muscles, model.supports, model.tissue_mass};
-  for (const auto& [name, table] : d.effects)
-    if (name != "muscles") model.effects.push_back(make_effect(name, table, anatomy));
-  model.effects.push_back(make_effect("muscles", {}, anatomy));
+  model.effects = make_effects(anatomy);
   if (std::none_of(d.supports.begin(), d.supports.end(),
                    [](Support s) { return s == Support::fixed; }))
     throw InputError(source + ": no node is fixed to the jaw; the tongue would float away");

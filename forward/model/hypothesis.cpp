@@ -1,62 +1,81 @@
 #include "forward/model/hypothesis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "forward/model/build_effects.hpp"
+#include "forward/model/effect_kinds.hpp"
 
 namespace genio {
 namespace {
 
-FreeNumber free_number(const Strength& way, const std::vector<int>& parameters,
-                       std::span<const ParameterInfo> info) {
-  FreeNumber n{"", {}, info[size_t(parameters.front())]};
-  n.info.lower = std::max(n.info.lower, n.info.least);
-  n.info.upper = std::min(n.info.upper, n.info.most);
-  for (int k : parameters) n.keys.push_back(info[size_t(k)].name);
-  n.name = way.where.empty() ? n.keys.front() : way.where;
+/// An effect as one way of putting it into a model makes it.
+struct Sample {
+  EffectTable table;
+  std::vector<ParameterInfo> info;
+  std::vector<ParameterBelief> beliefs;
+
+  FreeNumber number(int k) const {
+    return {info[size_t(k)].name, {info[size_t(k)].name}, info[size_t(k)], beliefs[size_t(k)]};
+  }
+  bool is_absent(const Variant& variant) const {
+    for (const auto& parameters : variant.numbers)
+      for (int k : parameters)
+        if (info[size_t(k)].value != info[size_t(k)].absent) return false;
+    return true;
+  }
+};
+
+FreeNumber strength(const Variant& variant, const std::vector<int>& parameters, const Sample& s) {
+  FreeNumber n = s.number(parameters.front());
+  n.info.lower = std::max(n.info.lower, n.belief.least);
+  n.info.upper = std::min(n.info.upper, n.belief.most);
+  n.keys.clear();
+  for (int k : parameters) n.keys.push_back(s.info[size_t(k)].name);
+  if (!variant.where.empty()) n.name = variant.where;
   return n;
 }
 
 /// Hypotheses of one effect at one place.
-void add(const ModelDescription& d, const std::string& name, const Place& place,
+void add(const ModelDescription& d, const EffectKind& kind, const Place& place,
          const Anatomy& anatomy, std::vector<Hypothesis>& result) {
-  std::shared_ptr<const Effect> sample;
-  const auto present = d.effects.find(name);
-  EffectTable table = present == d.effects.end() ? place.table : present->second;
+  const auto present = d.effects.find(kind.name);
+  Sample s{present == d.effects.end() ? place.table : present->second, {}, {}};
   try {
-    sample = make_effect(name, table, anatomy);
+    s.info = make_effect(kind.name, s.table, anatomy).parameters();
   } catch (const InputError&) {
     return;  // no surface to touch, no hyoid to move
   }
-  const auto info = sample->parameters();
+  s.beliefs = beliefs_of(kind.belief, s.info);
   std::vector<FreeNumber> details;
-  for (size_t k = 0; k < info.size(); ++k)
-    if (info[k].detail) details.push_back({info[k].name, {info[k].name}, info[k]});
-  const auto ways = sample->strengths();
-  const auto absent = [&](const Strength& way) {
-    for (const auto& parameters : way.numbers)
-      for (int k : parameters)
-        if (info[size_t(k)].value != info[size_t(k)].absent) return false;
-    return true;
-  };
-  EffectTable vanished = table;
+  for (size_t k = 0; k < s.info.size(); ++k)
+    if (s.beliefs[k].detail) details.push_back(s.number(int(k)));
+  const auto variants = variants_of(kind.belief, s.info);
+  EffectTable vanished = s.table;
   if (present == d.effects.end())
-    for (const Strength& way : ways)
-      for (const auto& parameters : way.numbers)
-        for (int k : parameters) vanished[info[size_t(k)].name] = info[size_t(k)].absent;
-  const auto made = make_effect(name, vanished, anatomy);
-  for (const Strength& way : ways) {
-    if (present != d.effects.end() && !absent(way)) continue;
-    Hypothesis h{name, way.where.empty() ? place.name : way.where, vanished, {}, details, made};
-    if (h.where.empty() && ways.size() > 1)
-      h.where = info[size_t(way.numbers.front().front())].name;
-    for (const auto& parameters : way.numbers)
-      h.strengths.push_back(free_number(way, parameters, info));
+    for (const Variant& variant : variants)
+      for (const auto& parameters : variant.numbers)
+        for (int k : parameters) vanished[s.info[size_t(k)].name] = s.info[size_t(k)].absent;
+  const Effect made = make_effect(kind.name, vanished, anatomy);
+  for (const Variant& variant : variants) {
+    if (present != d.effects.end() && !s.is_absent(variant)) continue;
+    Hypothesis h{
+        kind.name, variant.where.empty() ? place.name : variant.where, vanished, {}, details, made};
+    if (h.where.empty() && variants.size() > 1)
+      h.where = s.info[size_t(variant.numbers.front().front())].name;
+    for (const auto& parameters : variant.numbers)
+      h.strengths.push_back(strength(variant, parameters, s));
     result.push_back(std::move(h));
   }
 }
 
 }  // namespace
+
+double FreeNumber::off(double value) const {
+  return belief.ratio ? std::log(value) : value - info.absent;
+}
+
+double FreeNumber::at(double off) const { return belief.ratio ? std::exp(off) : info.absent + off; }
 
 std::string label(const std::string& effect, const std::string& where) {
   return where.empty() ? effect : effect + " (" + where + ")";
@@ -72,19 +91,24 @@ ModelDescription Hypothesis::added_to(ModelDescription d, bool present) const {
   if (present)
     for (const FreeNumber& n : strengths)
       for (const auto& key : n.keys)
-        if (n.info.penalty) t[key] = n.info.absent + n.info.typical;
+        if (n.info.penalty) t[key] = n.info.absent + n.belief.typical;
   d.effects[effect] = std::move(t);
   return d;
 }
 
+std::string implausible(const std::string& effect, EffectParameters values) {
+  const EffectKind* kind = find_kind(effect);
+  return kind && kind->belief.implausible ? kind->belief.implausible(values) : "";
+}
+
 ModelDescription with_mobile_supports(ModelDescription d) {
-  for (const std::string& name : effect_names()) {
-    if (d.effects.contains(name)) continue;
+  for (const EffectKind& kind : effect_kinds()) {
+    if (d.effects.contains(kind.name)) continue;
     ModelDescription with = d;
-    with.effects[name] = {};
+    with.effects[kind.name] = {};
     if (supports_for(with) == supports_for(d)) continue;
     for (const Hypothesis& h : hypotheses(d))
-      if (h.effect == name) {
+      if (h.effect == kind.name) {
         d = h.added_to(d);
         break;
       }
@@ -98,14 +122,13 @@ std::vector<Hypothesis> hypotheses(const ModelDescription& d) {
   for (Muscle& m : muscles) m.segments = share_by_volume(d.mesh, m.fibres, m.elements);
   const NodeMatrix mass = tissue_mass(d.mesh, d.density);
   std::vector<Hypothesis> result;
-  for (const std::string& name : effect_names()) {
-    const auto places = places_of(name, d);
-    const bool placed = places.size() > 1 || !places.front().name.empty();
-    if (d.effects.contains(name) && placed) continue;
+  for (const EffectKind& kind : effect_kinds()) {
+    if (d.effects.contains(kind.name) && kind.places) continue;
     ModelDescription with = d;
-    with.effects.try_emplace(name);
+    with.effects.try_emplace(kind.name);
     const Anatomy anatomy{d, source, muscles, supports_for(with), mass};
-    for (const Place& place : places) add(d, name, place, anatomy, result);
+    const auto places = kind.places ? kind.places(d) : std::vector<Place>{{}};
+    for (const Place& place : places) add(d, kind, place, anatomy, result);
   }
   return result;
 }

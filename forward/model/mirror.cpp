@@ -6,6 +6,7 @@
 #include "forward/effects/surroundings/contact.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/half_model.hpp"
+#include "forward/model/sums.hpp"
 
 namespace genio {
 namespace {
@@ -72,14 +73,12 @@ Parameters trial_parameters(const Model& m) {
 /// Forces but for those of contact, whose surfaces are compared by themselves: meshes of a palate
 /// are symmetric to less than their forces would tell.
 Forces force_of_tongue(const Model& m, const Positions& x, const Parameters& p) {
-  return forces_of(m, x, p, [](const Effect& e) { return !dynamic_cast<const Contact*>(&e); });
+  return forces_of(m, x, p, [](const Effect& e) { return !e.contact; });
 }
 
 /// What the tongue may touch is the same on both sides.
 bool symmetric_surfaces(const Model& m) {
-  for (const auto& effect : m.effects) {
-    const auto* contact = dynamic_cast<const Contact*>(effect.get());
-    if (!contact) continue;
+  for (const auto& contact : m.contacts)
     for (const Quad& q : m.surface)
       for (int a : q)
         for (double up : {0.0, 5e-3, 1e-2}) {
@@ -87,7 +86,6 @@ bool symmetric_surfaces(const Model& m) {
           const double d = contact->distance(x), e = contact->distance({x[0], -x[1], x[2]});
           if (std::min(d, e) < touching && std::abs(d - e) > same_surface) return false;
         }
-  }
   return true;
 }
 

@@ -12,8 +12,6 @@ namespace genio {
 
 namespace {
 
-using Effects = std::vector<std::shared_ptr<const Effect>>;
-
 int index_of(const std::vector<ParameterSlot>& slots, const std::string& name) {
   std::vector<std::string> known;
   for (size_t k = 0; k < slots.size(); ++k) {
@@ -24,37 +22,67 @@ int index_of(const std::vector<ParameterSlot>& slots, const std::string& name) {
                                nearest_name(name, known)));
 }
 
-std::vector<ParameterSlot> parameter_slots(const Effects& effects) {
+std::vector<ParameterSlot> parameter_slots(const std::vector<Effect>& effects) {
   std::vector<ParameterSlot> slots;
   for (size_t e = 0; e < effects.size(); ++e) {
-    const std::string effect(effects[e]->name());
-    const auto infos = effects[e]->parameters();
+    const auto infos = effects[e].parameters();
     for (size_t k = 0; k < infos.size(); ++k)
       slots.push_back({.effect = int(e),
                        .index = int(k),
-                       .name = {effect, infos[k].name},
+                       .name = {std::string(effects[e].name()), infos[k].name},
                        .info = infos[k],
-                       .is_command = effect == "muscles"});
+                       .is_command = effects[e].commands});
   }
   return slots;
 }
 
-std::vector<std::vector<int>> inputs_of(const Effects& effects,
-                                        const std::vector<ParameterSlot>& slots) {
-  std::vector<std::vector<int>> inputs(effects.size());
-  for (size_t k = 0; k < slots.size(); ++k) inputs[size_t(slots[k].effect)].push_back(int(k));
-  for (size_t e = 0; e < effects.size(); ++e)
-    for (const auto& borrowed : effects[e]->borrows())
-      inputs[e].push_back(index_of(slots, borrowed));
+/// Where what a term of the effect reads stands among the slots.
+std::vector<int> inputs_of(const Term& term, const std::vector<ParameterSlot>& slots) {
+  std::vector<ParameterName> names;
+  for (const ParameterInfo& info : term.parameters())
+    names.push_back({std::string(term.name()), info.name});
+  const auto borrowed = term.borrows();
+  names.insert(names.end(), borrowed.begin(), borrowed.end());
+  std::vector<int> inputs;
+  for (const ParameterName& name : names) {
+    const auto slot = std::find_if(slots.begin(), slots.end(),
+                                   [&](const ParameterSlot& s) { return s.name == name; });
+    // The search by text knows what to suggest where there is none.
+    inputs.push_back(slot == slots.end() ? index_of(slots, name.text())
+                                         : int(slot - slots.begin()));
+  }
   return inputs;
 }
 
-std::shared_ptr<const BlockPattern> pattern_of(const HexMesh& mesh, const Effects& effects) {
+/// The terms of one kind.
+template <class T>
+std::vector<Placed<T>> placed(const std::vector<Effect>& effects,
+                              const std::vector<ParameterSlot>& slots,
+                              std::shared_ptr<const T> Effect::*member) {
+  std::vector<Placed<T>> result;
+  for (size_t e = 0; e < effects.size(); ++e)
+    if (const auto& term = effects[e].*member)
+      result.push_back({term, int(e), inputs_of(*term, slots)});
+  return result;
+}
+
+std::vector<Placed<JointForces>> placed_joint(const std::vector<Effect>& effects,
+                                              const std::vector<ParameterSlot>& slots) {
+  std::vector<Placed<JointForces>> result;
+  for (size_t e = 0; e < effects.size(); ++e)
+    if (effects[e].joint)
+      result.push_back({effects[e].joint, int(e), inputs_of(*effects[e].dissipation, slots)});
+  return result;
+}
+
+std::shared_ptr<const BlockPattern> pattern_of(const HexMesh& mesh,
+                                               const std::vector<Effect>& effects) {
   std::vector<std::pair<int, int>> extra;
-  for (const auto& effect : effects) {
-    const auto pairs = effect->couplings();
-    extra.insert(extra.end(), pairs.begin(), pairs.end());
-  }
+  for (const Effect& effect : effects)
+    for (const Term* term : effect.terms()) {
+      const auto pairs = term->couplings();
+      extra.insert(extra.end(), pairs.begin(), pairs.end());
+    }
   return std::make_shared<const BlockPattern>(mesh, extra);
 }
 
@@ -78,7 +106,12 @@ Model::Model(ModelParts from)
       batches(element_batches(mesh)),
       dofs(supports),
       parameters(parameter_slots(effects)),
-      inputs(inputs_of(effects, parameters)),
+      potentials(placed(effects, parameters, &Effect::potential)),
+      dissipations(placed(effects, parameters, &Effect::dissipation)),
+      joint_forces(placed_joint(effects, parameters)),
+      inertias(placed(effects, parameters, &Effect::inertia)),
+      filters(placed(effects, parameters, &Effect::filter)),
+      contacts(placed(effects, parameters, &Effect::contact)),
       pattern(pattern_of(mesh, effects)) {}
 
 ModelParts Model::parts() const {
@@ -136,171 +169,16 @@ void set_parameter(const Model& model, const std::string& name, double value, Pa
 }
 
 const Effect* find_effect(const Model& model, std::string_view name) {
-  for (const auto& e : model.effects)
-    if (e->name() == name) return e.get();
+  for (const Effect& e : model.effects)
+    if (e.name() == name) return &e;
   return nullptr;
 }
 
 std::vector<double> effect_parameters(const Model& model, const Parameters& p, int effect) {
   std::vector<double> values;
-  for (int k : model.inputs[size_t(effect)]) values.push_back(p[k]);
+  for (size_t k = 0; k < model.parameters.size(); ++k)
+    if (model.parameters[k].effect == effect) values.push_back(p[Eigen::Index(k)]);
   return values;
-}
-
-double energy(const Model& model, const Positions& x, const Parameters& p) {
-  double total = 0;
-  for (size_t e = 0; e < model.effects.size() && std::isfinite(total); ++e)
-    total += model.effects[e]->energy(x, effect_parameters(model, p, int(e)));
-  return total;
-}
-
-Forces forces_of(const Model& model, const Positions& x, const Parameters& p,
-                 const std::function<bool(const Effect&)>& which) {
-  Forces f = Forces::Zero(x.size());
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    if (which(*model.effects[e]))
-      model.effects[e]->add_force(x, effect_parameters(model, p, int(e)), f);
-  return f;
-}
-
-Forces force(const Model& model, const Positions& x, const Parameters& p) {
-  return forces_of(model, x, p, [](const Effect&) { return true; });
-}
-
-double load_size(const Model& model, const Positions& x, const Parameters& p) {
-  constexpr double floor = 1e-3;  // [N]
-  Forces f;
-  double sum = 0;
-  for (size_t e = 0; e < model.effects.size(); ++e) {
-    const auto infos = model.effects[e]->parameters();
-    if (std::none_of(infos.begin(), infos.end(),
-                     [](const ParameterInfo& i) { return i.load || i.penalty; }))
-      continue;
-    f = Forces::Zero(x.size());
-    model.effects[e]->add_force(x, effect_parameters(model, p, int(e)), f);
-    sum += f.squaredNorm();
-  }
-  return std::max(std::sqrt(sum), floor);
-}
-
-void stiffness(const Model& model, const Positions& x, const Parameters& p, Stiffness& k) {
-  k.set_zero();
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_stiffness(x, effect_parameters(model, p, int(e)), k);
-}
-
-void step_stiffness(const Model& model, const Positions& x, const LinearStep& led,
-                    const Parameters& p, Stiffness& k) {
-  k.set_zero();
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_step_stiffness(x, led, effect_parameters(model, p, int(e)), k);
-}
-
-Bulk bulk(const Model& model, const Positions& x, const Parameters& p) {
-  Vector kappa = Vector::Zero(Eigen::Index(model.mesh.elements.size()));
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_bulk_modulus(effect_parameters(model, p, int(e)), kappa);
-  Bulk result{VolumeGradients(model.batches, x), {}, {}, Vector(kappa.size())};
-  for (const ElementBatch& batch : model.batches)
-    for (int l = 0; l < batch.count; ++l) result.volume[batch.element[l]] = batch.volume[l];
-  result.stiffness = kappa.cwiseQuotient(result.volume);
-  // Volumes are homogeneous of third degree in the positions (Euler).
-  result.excess = result.gradients.rates(x) / 3 - result.volume;
-  return result;
-}
-
-double step_limit(const Model& model, const Positions& x, const Positions& along,
-                  const Parameters& p) {
-  double t = 1.0;
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    t = std::min(t, model.effects[e]->step_limit(x, along, effect_parameters(model, p, int(e))));
-  return t;
-}
-
-Forces forces_in_motion(const Model& model, const Positions& x, const Vector& v,
-                        const Parameters& p, Forces& viscous) {
-  Forces f = Forces::Zero(x.size());
-  viscous = f;
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_forces_in_motion(x, v, effect_parameters(model, p, int(e)), f, viscous);
-  return f;
-}
-
-void add_damping(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
-                 double scale, Stiffness& scratch, Stiffness& k) {
-  scratch.set_zero();
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_damping(x, v, effect_parameters(model, p, int(e)), scratch);
-  k.add(scratch, scale);
-}
-
-NodeMatrix mass_matrix(const Model& model, const Parameters& p) {
-  if (model.tissue_mass.size() == 0)
-    throw InputError(model.name + ": the model has no mass; dynamics needs its density");
-  Vector points = Vector::Zero(model.tissue_mass.rows());
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_mass(effect_parameters(model, p, int(e)), points);
-  NodeMatrix mass = model.tissue_mass;
-  mass.diagonal() += points;
-  return mass;
-}
-
-namespace {
-
-/// add(effect, its values, its parameter, column) for every effect that reads one of `parameters`.
-template <class Add>
-Matrix sum_of_derivatives(const Model& model, Eigen::Index size, const Parameters& p,
-                          std::span<const int> parameters, Add add) {
-  Matrix result = Matrix::Zero(size, Eigen::Index(parameters.size()));
-  Forces column;
-  for (size_t e = 0; e < model.effects.size(); ++e) {
-    const auto& inputs = model.inputs[e];
-    const auto values = effect_parameters(model, p, int(e));
-    for (size_t c = 0; c < parameters.size(); ++c)
-      for (size_t k = 0; k < inputs.size(); ++k) {
-        if (inputs[k] != parameters[c]) continue;
-        column = Forces::Zero(size);
-        add(*model.effects[e], values, int(k), column);
-        result.col(Eigen::Index(c)) += column;
-      }
-  }
-  return result;
-}
-
-}  // namespace
-
-Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
-                         std::span<const int> parameters) {
-  return sum_of_derivatives(model, x.size(), p, parameters,
-                            [&](const Effect& e, EffectParameters values, int k, Forces& df) {
-                              e.add_force_derivative(x, values, k, df);
-                            });
-}
-
-Matrix motion_force_derivatives(const Model& model, const Positions& x, const Vector& v,
-                                const Parameters& p, std::span<const int> parameters) {
-  return sum_of_derivatives(model, x.size(), p, parameters,
-                            [&](const Effect& e, EffectParameters values, int k, Forces& df) {
-                              e.add_force_derivative(x, values, k, df);
-                              e.add_viscous_force_derivative(x, v, values, k, df);
-                            });
-}
-
-Matrix viscous_slope(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
-                     const Matrix& along, Stiffness& scratch) {
-  Matrix df = Matrix::Zero(along.rows(), along.cols());
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    model.effects[e]->add_viscous_force_slope(x, v, effect_parameters(model, p, int(e)), along,
-                                              scratch, df);
-  return df;
-}
-
-double max_penetration(const Model& model, const Positions& x, const Parameters& p) {
-  double depth = 0;
-  for (size_t e = 0; e < model.effects.size(); ++e)
-    if (const auto* contact = dynamic_cast<const Contact*>(model.effects[e].get()))
-      depth = std::max(depth, contact->max_penetration(x, effect_parameters(model, p, int(e))));
-  return depth;
 }
 
 }  // namespace genio

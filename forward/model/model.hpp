@@ -1,8 +1,6 @@
 #pragma once
 // A tongue: mesh, supports, surfaces and the effects whose energies add up.
 
-#include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,13 +14,10 @@
 #include "forward/geometry/element_batches.hpp"
 #include "forward/geometry/mesh.hpp"
 #include "forward/geometry/triangle_surface.hpp"
-#include "forward/geometry/volume_gradients.hpp"
+#include "forward/model/placed.hpp"
 #include "forward/tissue/fibres.hpp"
 
 namespace genio {
-
-/// Values of all parameters of all effects, in the order of Model::parameters.
-using Parameters = Eigen::VectorXd;
 
 /// A parameter and where it lives.
 struct ParameterSlot {
@@ -46,14 +41,14 @@ struct ModelParts {
   /// over tip and dorsum to the root.
   std::vector<int> midsagittal;
   std::optional<TriangleSurface> palate, jaw, hyoid;
-  std::vector<std::shared_ptr<const Effect>> effects;
+  std::vector<Effect> effects;
   NodeMatrix tissue_mass;  ///< [kg]; empty where there are no dynamics
 };
 
 /// A tongue, assembled once and then constant: a changed model is a new one, made from changed
 /// parts(). What solvers need of the parts is derived when it is made. Copies may share workspaces.
 struct Model {
-  /// Throws InputError where an effect borrows a parameter that no effect has.
+  /// Throws InputError where a term borrows a parameter that no effect has.
   explicit Model(ModelParts parts);
 
   const std::string name;
@@ -64,7 +59,7 @@ struct Model {
   const Landmarks landmarks;
   const std::vector<int> midsagittal;
   const std::optional<TriangleSurface> palate, jaw, hyoid;
-  const std::vector<std::shared_ptr<const Effect>> effects;
+  const std::vector<Effect> effects;
   const NodeMatrix tissue_mass;
 
   // Derived:
@@ -73,8 +68,13 @@ struct Model {
   const std::vector<ElementBatch> batches;
   const DofMap dofs;
   const std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another
-  /// Of each effect: where its parameters, then those it borrows, stand in Parameters.
-  const std::vector<std::vector<int>> inputs;
+  // The effects' terms, each kind in the order of the effects:
+  const std::vector<Placed<Potential>> potentials;
+  const std::vector<Placed<Dissipation>> dissipations;
+  const std::vector<Placed<JointForces>> joint_forces;  ///< each reads what the dissipation reads
+  const std::vector<Placed<Inertia>> inertias;
+  const std::vector<Placed<CommandFilter>> filters;  ///< commands pass them one after another
+  const std::vector<Placed<Contact>> contacts;       ///< among the potentials
   /// Which node pairs couple. Workspaces share it, so that they cannot outlive it.
   const std::shared_ptr<const BlockPattern> pattern;
 
@@ -102,51 +102,7 @@ void set_parameter(const Model& model, const std::string& name, double value, Pa
 /// Effect by name; nullptr when the model has none.
 const Effect* find_effect(const Model& model, std::string_view name);
 
-/// The values of one effect within `p`, those it borrows last.
+/// The values of an effect's own parameters within `p`.
 std::vector<double> effect_parameters(const Model& model, const Parameters& p, int effect);
-
-/// Total potential energy [J]; +infinity for inverted tissue.
-double energy(const Model& model, const Positions& x, const Parameters& p);
-/// Total nodal forces [N].
-Forces force(const Model& model, const Positions& x, const Parameters& p);
-/// Those of some of its effects.
-Forces forces_of(const Model& model, const Positions& x, const Parameters& p,
-                 const std::function<bool(const Effect&)>& which);
-/// Norm of the nodal forces of loads and contacts, which a residual is compared with [N]; at least
-/// 1 mN.
-double load_size(const Model& model, const Positions& x, const Parameters& p);
-/// Total stiffness into `k` (overwritten) [N/m].
-void stiffness(const Model& model, const Positions& x, const Parameters& p, Stiffness& k);
-/// Total stiffness for a Newton step, see Effect::add_step_stiffness.
-void step_stiffness(const Model& model, const Positions& x, const LinearStep& led,
-                    const Parameters& p, Stiffness& k);
-/// The part of the stiffness at x that keeps volumes. It refers to the model's batches.
-Bulk bulk(const Model& model, const Positions& x, const Parameters& p);
-/// Smallest of the effects' step limits.
-double step_limit(const Model& model, const Positions& x, const Positions& along,
-                  const Parameters& p);
-/// Total nodal forces at the velocities v: those of the potential and, in `viscous`, those of the
-/// dissipation [N].
-Forces forces_in_motion(const Model& model, const Positions& x, const Vector& v,
-                        const Parameters& p, Forces& viscous);
-/// Adds the total damping, times `scale`, to `k`; `scratch` is overwritten.
-void add_damping(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
-                 double scale, Stiffness& scratch, Stiffness& k);
-/// The tissue's and the effects' mass [kg]. Throws InputError for a model without.
-NodeMatrix mass_matrix(const Model& model, const Parameters& p);
-/// dF/dp_k as nodal forces, for each of the given parameters: 3 n x count [N per unit].
-Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
-                         std::span<const int> parameters);
-
-/// The same of the forces in motion, those of the potential and of the dissipation together.
-Matrix motion_force_derivatives(const Model& model, const Positions& x, const Vector& v,
-                                const Parameters& p, std::span<const int> parameters);
-/// The derivative of the viscous forces along each column of `along`, nodal displacements at fixed
-/// v. `scratch` is overwritten.
-Matrix viscous_slope(const Model& model, const Positions& x, const Vector& v, const Parameters& p,
-                     const Matrix& along, Stiffness& scratch);
-
-/// Deepest penetration of any surface [m].
-double max_penetration(const Model& model, const Positions& x, const Parameters& p);
 
 }  // namespace genio

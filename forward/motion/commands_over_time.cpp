@@ -38,6 +38,30 @@ double number(const std::string& cell, const std::string& path, int line,
   return v;
 }
 
+CommandsOverTime filtered(const Model& model, const Placed<CommandFilter>& filter,
+                          const CommandsOverTime& commands) {
+  CommandsOverTime out{{commands.times.front()}, {commands.values.front()}};
+  // At rest before; then followed long enough for the last jump to be over.
+  for (size_t k = 0; k < model.parameters.size(); ++k)
+    if (model.parameters[k].is_command) out.values[0][Eigen::Index(k)] = 0;
+  const double end =
+      commands.times.back() + 10 * filter->memory(filter.values(commands.values.front()));
+  while (out.times.back() < end) {
+    const double t = out.times.back() + activation_step;
+    const Parameters excitation = commands.at(t - 0.5 * activation_step);
+    const auto values = filter.values(excitation);
+    Parameters next = commands.at(t);
+    for (size_t i = 0; i < model.parameters.size(); ++i) {
+      if (!model.parameters[i].is_command) continue;
+      const auto k = Eigen::Index(i);
+      next[k] = filter->follow(excitation[k], out.values.back()[k], activation_step, values);
+    }
+    out.times.push_back(t);
+    out.values.push_back(std::move(next));
+  }
+  return out;
+}
+
 }  // namespace
 
 Parameters CommandsOverTime::at(double time) const {
@@ -95,32 +119,9 @@ CommandsOverTime read_commands(const Model& model, const std::string& path,
 }
 
 CommandsOverTime activated(const Model& model, const CommandsOverTime& commands) {
-  const auto dynamics =
-      std::find_if(model.parameters.begin(), model.parameters.end(), [](const ParameterSlot& s) {
-        return s.name == ParameterName{"activation_dynamics", "rise"};
-      });
-  if (dynamics == model.parameters.end()) return commands;
-  const auto rise = dynamics - model.parameters.begin(), fall = rise + 1;
-  CommandsOverTime out{{commands.times.front()}, {commands.values.front()}};
-  // At rest before; then followed long enough for the last jump to be over.
-  for (size_t k = 0; k < model.parameters.size(); ++k)
-    if (model.parameters[k].is_command) out.values[0][Eigen::Index(k)] = 0;
-  const Parameters& first = commands.values.front();
-  const double end = commands.times.back() + 10 * std::max(first[rise], first[fall]);
-  while (out.times.back() < end) {
-    const double t = out.times.back() + activation_step;
-    const Parameters told = commands.at(t - 0.5 * activation_step);
-    Parameters next = commands.at(t);
-    for (size_t i = 0; i < model.parameters.size(); ++i) {
-      if (!model.parameters[i].is_command) continue;
-      const auto k = Eigen::Index(i);
-      const double a = out.values.back()[k], tau = told[told[k] > a ? rise : fall];
-      next[k] = tau > 0 ? told[k] + (a - told[k]) * std::exp(-activation_step / tau) : told[k];
-    }
-    out.times.push_back(t);
-    out.values.push_back(std::move(next));
-  }
-  return out;
+  CommandsOverTime result = commands;
+  for (const auto& filter : model.filters) result = filtered(model, filter, result);
+  return result;
 }
 
 }  // namespace genio

@@ -25,7 +25,7 @@ CommandsOverTime ramp(const Parameters& from, const Parameters& to, double ramp)
 /// InputError naming file, line and column.
 CommandsOverTime read_commands(const Model& model, const std::string& path, const Parameters& base);
 
-/// The commands as the muscles follow them, where the model has activation_dynamics; else as given.
+/// The commands as the muscles follow them, where the model has a filter of them; else as given.
 CommandsOverTime activated(const Model& model, const CommandsOverTime& commands);
 
 }  // namespace genio

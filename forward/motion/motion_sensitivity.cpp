@@ -164,7 +164,7 @@ std::vector<Matrix> motion_sensitivity(const Model& model, const Controls& contr
                                        const Trajectory& trajectory, const TimeScheme& scheme,
                                        const Matrix& start, const std::vector<double>& when,
                                        Workspace& ws, double accuracy) {
-  if (find_effect(model, "activation_dynamics"))
+  if (!model.filters.empty())
     throw InputError(model.name +
                      ": activation_dynamics lets forces lag behind commands; dynamic "
                      "inversion finds the forces themselves, so leave it out");

@@ -5,7 +5,7 @@
 
 #include "forward/algebra/cholesky.hpp"
 #include "forward/algebra/mixed_solver.hpp"
-#include "forward/model/model.hpp"
+#include "forward/model/sums.hpp"
 #include "forward/statics/curved_step.hpp"
 
 namespace genio {

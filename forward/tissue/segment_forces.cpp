@@ -17,9 +17,9 @@ std::vector<std::pair<int, int>> segment_couplings(const std::vector<Muscle>& mu
   return pairs;
 }
 
-std::vector<std::string> command_names(const std::vector<Muscle>& muscles) {
-  std::vector<std::string> names;
-  for (const auto& m : muscles) names.push_back("muscles." + m.name);
+std::vector<ParameterName> command_names(const std::vector<Muscle>& muscles) {
+  std::vector<ParameterName> names;
+  for (const auto& m : muscles) names.push_back({"muscles", m.name});
   return names;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 
 #include "forward/algebra/stiffness.hpp"
+#include "forward/base/parameter_name.hpp"
 #include "forward/tissue/fibres.hpp"
 
 namespace genio {
@@ -67,6 +68,6 @@ void add_segment_stiffness(const std::vector<FibreSegment>& segments, const Posi
 std::vector<std::pair<int, int>> segment_couplings(const std::vector<Muscle>& muscles);
 
 /// The parameter names of the muscles' commands: "muscles.GGP_L", ...
-std::vector<std::string> command_names(const std::vector<Muscle>& muscles);
+std::vector<ParameterName> command_names(const std::vector<Muscle>& muscles);
 
 }  // namespace genio

@@ -15,9 +15,8 @@ namespace {
 constexpr double too_far = 0.12;  // [m] from the middle of the tongue
 
 bool inside_bone(const Model& model, const Vec3& p) {
-  for (const auto& e : model.effects)
-    if (const auto* contact = dynamic_cast<const Contact*>(e.get()))
-      if (contact->distance(Vec3(p[0], 0, p[2])) < 0) return true;
+  for (const auto& contact : model.contacts)
+    if (contact->distance(Vec3(p[0], 0, p[2])) < 0) return true;
   return false;
 }
 

@@ -26,7 +26,7 @@ class Discover : public test::PosedTongue {
 
 TEST_F(Discover, NamesNothingWhereNothingIsHidden) {
   const Discovery d = found(tongue);
-  EXPECT_EQ(d.finding, Finding::none) << d.message;
+  EXPECT_EQ(d.verdict, DiscoveryVerdict::none) << d.message;
   EXPECT_TRUE(d.effects.empty());
   EXPECT_TRUE(d.map_before.patches.empty());
 }
@@ -35,7 +35,7 @@ TEST_F(Discover, NamesAnOpenJawAndTheGapShrinksAlsoWhereItDidNotLook) {
   ModelDescription truth = tongue;
   truth.effects["jaw_opening"] = {{"angle", 3}};
   const Discovery d = found(truth);
-  ASSERT_FALSE(d.effects.empty()) << to_string(d.finding) << ": " << d.message;
+  ASSERT_FALSE(d.effects.empty()) << to_string(d.verdict) << ": " << d.message;
   EXPECT_EQ(d.effects[0].effect, "jaw_opening");
   ASSERT_EQ(d.effects[0].parameters.size(), 1u);
   EXPECT_NEAR(d.effects[0].parameters[0].value, 3, 0.3);
@@ -52,54 +52,52 @@ TEST(Ranking, PutsTheLikeliestFirstAndTheUnlikelyByTheirOdds) {
   for (const auto& [name, odds, probability] :
        {std::tuple("scored best", 5.0, 0.0), std::tuple("second", 124.0, 0.06),
         std::tuple("far behind", 9.0, 0.0), std::tuple("first", 127.0, 0.94)}) {
-    Ranked r;
+    RankedCandidate r;
     r.candidate.effect = name, r.log_odds = odds, r.probability = probability;
     round.candidates.push_back(std::move(r));
   }
   rank(round);
   std::vector<std::string> order;
-  for (const Ranked& r : round.candidates) order.push_back(r.candidate.effect);
+  for (const RankedCandidate& r : round.candidates) order.push_back(r.candidate.effect);
   EXPECT_EQ(order, (std::vector<std::string>{"first", "second", "far behind", "scored best"}));
 }
 
-ParameterInfo between(double lower, double upper) {
-  ParameterInfo info;
-  info.lower = lower, info.upper = upper;
-  return info;
+FreeNumber between(double lower, double upper) {
+  return {.info = {.lower = lower, .upper = upper}};
 }
 
-TEST(Intervals, AreAsWideAsTheEffectsOwnDoubtMakesThem) {
+TEST(Intervals, AreAsWideAsTheErrorModelMakesThem) {
   const SharedEstimate fitted{"e.v", "N", 10, 1, 10 - 1.645, 10 + 1.645};
-  const SharedEstimate same = doubted(fitted, between(-100, 100), 0);
+  const SharedEstimate same = widened(fitted, between(-100, 100), 0);
   EXPECT_DOUBLE_EQ(same.low, fitted.low);
   EXPECT_DOUBLE_EQ(same.high, fitted.high);
-  const SharedEstimate wider = doubted(fitted, between(-100, 100), 1);
+  const SharedEstimate wider = widened(fitted, between(-100, 100), 1);
   EXPECT_NEAR(wider.sd, std::sqrt(2), 1e-12);
   EXPECT_NEAR(wider.high - 10, 1.645 * std::sqrt(2), 1e-12);
   EXPECT_NEAR(10 - wider.low, wider.high - 10, 1e-12);
-  EXPECT_EQ(doubted(fitted, between(9, 10.5), 1).low, 9);
+  EXPECT_EQ(widened(fitted, between(9, 10.5), 1).low, 9);
 }
 
 TEST(Intervals, AreSkewedAwayFromWhereAnEffectVanishes) {
   const SharedEstimate fitted{"e.v", "N", 10, 3, 10 - 4.9, 10 + 4.9};
-  const SharedEstimate up = doubted(fitted, between(0, 100), 0);
+  const SharedEstimate up = widened(fitted, between(0, 100), 0);
   EXPECT_NEAR(up.high, 10 * std::exp(0.49), 1e-9);
   EXPECT_NEAR(up.low, fitted.low, 1e-12);
   SharedEstimate mirrored = fitted;
   mirrored.value = -10, mirrored.low = -14.9, mirrored.high = -5.1;
-  const SharedEstimate down = doubted(mirrored, between(-100, 0), 0);
+  const SharedEstimate down = widened(mirrored, between(-100, 0), 0);
   EXPECT_NEAR(down.low, -up.high, 1e-9);
   EXPECT_NEAR(down.high, -up.low, 1e-9);
 }
 
 TEST(Intervals, OfAFactorAreThoseOfItsLogarithm) {
-  ParameterInfo info = between(0.05, 100);
-  info.absent = 1, info.ratio = true;
+  FreeNumber number = between(0.05, 100);
+  number.info.absent = 1, number.belief.ratio = true;
   const SharedEstimate fitted{"stiff_region.factor", "1", 8, 4, 4, 16};
-  const SharedEstimate same = doubted(fitted, info, 0);
+  const SharedEstimate same = widened(fitted, number, 0);
   EXPECT_NEAR(same.low, 4, 1e-12);
   EXPECT_NEAR(same.high, 16, 1e-12);
-  const SharedEstimate wider = doubted(fitted, info, 0.1 * std::log(8));
+  const SharedEstimate wider = widened(fitted, number, 0.1 * std::log(8));
   EXPECT_NEAR(wider.low * wider.high, 64, 1e-9);
   EXPECT_NEAR(std::log(wider.high / 8), std::hypot(std::log(2), 0.1645 * std::log(8)), 1e-9);
 }

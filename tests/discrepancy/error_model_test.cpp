@@ -13,29 +13,30 @@
 namespace genio {
 namespace {
 
-class ErrorModel : public test::FittedTongue {};
+class ErrorModelOfAFit : public test::FittedTongue {};
 
-TEST_F(ErrorModel, TurnedFibresStillBalance) {
+TEST_F(ErrorModelOfAFit, TurnedFibresStillBalance) {
   ASSERT_NO_FATAL_FAILURE(fit_to(tongue, tongue));
   const FittedCondition& c = f.conditions[0];
   Matrix sum = Matrix::Zero(3, c.x.size());
   for (Eigen::Index i = 0; i < c.x.size(); ++i) sum(i % 3, i) = 1;
-  const Matrix total = fibre_influence(study->model(0), c, sum);
+  const Matrix total = fibre_influence(set->model(0), c, sum);
   // Of a single node's force a turn makes something.
   Matrix single = Matrix::Zero(1, c.x.size());
-  single(0, 3 * study->model(0).muscles[0].fibres[0][1].node) = 1;
-  const double some = fibre_influence(study->model(0), c, single).norm();
+  single(0, 3 * set->model(0).muscles[0].fibres[0][1].node) = 1;
+  const double some = fibre_influence(set->model(0), c, single).norm();
   EXPECT_GT(some, 0);
   EXPECT_LT(total.norm(), 1e-9 * some);
 }
 
-TEST(FibreCovariance, HasTheAngleOfTheDoubtOnBothSidesAndMostOfItAlike) {
+TEST(FibreCovariance, HasTheAngleOfTheErrorModelOnBothSidesAndMostOfItAlike) {
   const Model m = read_model(test::generic_model());
-  const ModelDoubt doubt;
-  const double slope = doubt.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
-  const double variance = std::pow(slope * doubt.fibre_length, 2);
+  const ErrorModel error_model;
+  const double slope =
+      error_model.fibre_turn * std::numbers::pi / 180 / std::sqrt(std::numbers::pi / 2);
+  const double variance = std::pow(slope * error_model.fibre_length, 2);
   for (int axis : {0, 1, 2}) {
-    const Covariance c = fibre_covariance(m, doubt, axis);
+    const Covariance c = fibre_covariance(m, error_model, axis);
     const auto n = Eigen::Index(m.mesh.nodes.size());
     EXPECT_LT(covariance_root(n, c, 1e-2).cols(), n / 2);
     for (Eigen::Index a = 0; a < n; ++a) {
@@ -45,22 +46,23 @@ TEST(FibreCovariance, HasTheAngleOfTheDoubtOnBothSidesAndMostOfItAlike) {
       for (Eigen::Index b = 0; b < n; ++b) {
         const Vec3& y = m.mesh.nodes[size_t(b)];
         if (x[1] < 0.015 || (Vec3(x[0], -x[1], x[2]) - y).norm() > 1e-6) continue;
-        EXPECT_NEAR(c(a, b), (axis == 1 ? -1 : 1) * doubt.fibres_alike * variance, 2e-3 * variance);
+        EXPECT_NEAR(c(a, b), (axis == 1 ? -1 : 1) * error_model.fibres_alike * variance,
+                    2e-3 * variance);
       }
     }
   }
 }
 
-TEST_F(ErrorModel, MusclesThatDoMoreForTheirForceAreForgiven) {
+TEST_F(ErrorModelOfAFit, MusclesThatDoMoreForTheirForceAreForgiven) {
   ASSERT_NO_FATAL_FAILURE(fit_to(tongue, tongue));
-  ModelDoubt doubt;
-  doubt.efficacy_sd = 0.2;
-  const Matrix c = efficacy_covariance(*study, f, influences, doubt);
+  ErrorModel error_model;
+  error_model.efficacy_sd = 0.2;
+  const Matrix c = efficacy_covariance(*set, f, influences, error_model);
   EXPECT_TRUE(c.isApprox(c.transpose()));
   // One condition's muscles, all 20 % stronger: to first order what the covariance expects.
   const FittedCondition& one = f.conditions[0];
   Parameters stronger = one.parameters;
-  const Model& m = study->model(0);
+  const Model& m = set->model(0);
   double pulling = 0;
   for (const Muscle& muscle : m.muscles) {
     double& force = stronger[parameter_index(m, "muscles." + muscle.name)];
@@ -70,7 +72,7 @@ TEST_F(ErrorModel, MusclesThatDoMoreForTheirForceAreForgiven) {
   Workspace ws(m);
   const auto before = solve_equilibrium(m, one.parameters, one.x, ws),
              after = solve_equilibrium(m, stronger, one.x, ws);
-  const Comparison compare(m, observations.conditions[study->members()[0]].target);
+  const Comparison compare(m, observations.conditions[set->members()[0]].target);
   const Vector moved = (compare(after.x).values - compare(before.x).values) / 1e-3;
   const auto n = moved.size();
   const Matrix block =

@@ -51,13 +51,14 @@ class FittedTongue : public PosedTongue {
  protected:
   void fit_to(const ModelDescription& truth, const ModelDescription& description) {
     observations = observed(truth, true);
-    study = std::make_unique<Study>(description, observations, fitted_conditions(observations));
-    f = fit(*study, {}, nullptr);
+    set =
+        std::make_unique<ConditionSet>(description, observations, fitted_conditions(observations));
+    f = fit(*set, {}, nullptr);
     ASSERT_TRUE(f.converged) << f.message;
-    influences = influences_of(*study, f);
+    influences = influences_of(*set, f);
   }
   Observations observations;
-  std::unique_ptr<Study> study;
+  std::unique_ptr<ConditionSet> set;
   JointFit f;
   std::vector<Matrix> influences;
 };

@@ -11,7 +11,7 @@ class RefinementTest : public test::PosedTongue {};
 TEST_F(RefinementTest, AChangeOfOneSideLeavesTheMeshErrorAsItWas) {
   const Observations seen = observed(tongue, true);
   const auto all = fitted_conditions(seen);
-  Study plain(tongue, seen, all);
+  ConditionSet plain(tongue, seen, all);
   const JointFit before = fit(plain, {}, nullptr);
   ASSERT_EQ(before.conditions.size(), all.size()) << before.message;
   Refinement refinement(tongue, seen);
@@ -24,13 +24,13 @@ TEST_F(RefinementTest, AChangeOfOneSideLeavesTheMeshErrorAsItWas) {
   ASSERT_TRUE(pull.hypothesis);
   ModelDescription lopsided = pull.hypothesis->added_to(tongue);
   lopsided.effects["extra_muscle"]["force"] = 0.3;
-  Study study(lopsided, seen, all);
+  ConditionSet set(lopsided, seen, all);
   SharedPrior shared;
   shared.parameters["extra_muscle.force"] = {0.3, 0.001};
-  const JointFit after = fit(study, shared, nullptr, {&before.conditions});
+  const JointFit after = fit(set, shared, nullptr, {&before.conditions});
   ASSERT_EQ(after.conditions.size(), all.size()) << after.message;
   Refinement again(symmetric_part(lopsided, {pull}), refinement);
-  const Corrections corrections = again.corrections(study, after);
+  const Corrections corrections = again.corrections(set, after);
   for (size_t k = 0; k < all.size(); ++k) {
     ASSERT_EQ(corrections[k].added.size(), expected[k].added.size());
     EXPECT_LT((corrections[k].added - expected[k].added).norm(), 0.3 * expected[k].added.norm())

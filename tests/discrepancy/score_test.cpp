@@ -18,11 +18,11 @@ class Scores : public test::FittedTongue {
   void look_at(const ModelDescription& truth) { look_at(truth, tongue); }
   void look_at(const ModelDescription& truth, const ModelDescription& model) {
     ASSERT_NO_FATAL_FAILURE(fit_to(truth, with_mobile_supports(model)));
-    errors.matrix = residual_covariance(*study, f, influences, {}, {});
+    errors.matrix = residual_covariance(*set, f, influences, {}, {});
     errors.covariance.compute(errors.matrix);
-    f = fit(*study, {}, &errors, {&f.conditions});
+    f = fit(*set, {}, &errors, {&f.conditions});
     ASSERT_TRUE(f.converged) << f.message;
-    influences = influences_of(*study, f);
+    influences = influences_of(*set, f);
     all = candidates(model, observations);
   }
   Errors errors;
@@ -35,18 +35,18 @@ TEST_F(Scores, SignatureIsTheDerivativeOfTheResiduals) {
     const auto c =
         std::find_if(all.begin(), all.end(), [&](const Candidate& k) { return k.effect == name; });
     ASSERT_NE(c, all.end());
-    const Matrix exact = signature(*c, *study, f, influences);
+    const Matrix exact = signature(*c, *set, f, influences);
     // The first strength a little off its absent value, forces as they are.
     const FreeNumber& n = c->strengths.front();
-    const double h = 1e-3 * n.info.typical;
-    ModelDescription with = c->hypothesis->added_to(study->description());
+    const double h = 1e-3 * n.belief.typical;
+    ModelDescription with = c->hypothesis->added_to(set->description());
     with.effects[c->effect][n.keys.front()] = n.info.absent + h;
     const Model m = build_model(with, "with");
     Workspace ws(m);
     Parameters p = default_parameters(m);
     const FittedCondition& fitted = f.conditions[0];
-    for (size_t k = 0; k < study->model(0).parameters.size(); ++k) {
-      const std::string key = study->model(0).parameters[k].name.text();
+    for (size_t k = 0; k < set->model(0).parameters.size(); ++k) {
+      const std::string key = set->model(0).parameters[k].name.text();
       if (!key.starts_with(c->effect))
         p[parameter_index(m, key)] = fitted.parameters[Eigen::Index(k)];
     }
@@ -64,14 +64,14 @@ TEST_F(Scores, NothingHiddenScoresLowAndAHiddenEffectHighest) {
   look_at(tongue);
   {
     const Projection projection(f, errors.covariance);
-    const auto scores = score(all, *study, f, influences, projection);
+    const auto scores = score(all, *set, f, influences, projection);
     EXPECT_LT(scores.front().log_evidence, 1);
   }
   ModelDescription truth = tongue;
   truth.effects["airway_pressure"] = {{"pressure", 400}};
   look_at(truth);
   const Projection projection(f, errors.covariance);
-  const auto scores = score(all, *study, f, influences, projection);
+  const auto scores = score(all, *set, f, influences, projection);
   EXPECT_EQ(all[scores.front().candidate].effect, "airway_pressure");
   EXPECT_NEAR(scores.front().estimate[0], 400, 100);
   EXPECT_LT(scores.front().p, 1e-6);
@@ -86,11 +86,11 @@ TEST_F(Scores, ATongueThatIsPulledUpHasNoGravityDownwards) {
     return *std::find_if(scores.begin(), scores.end(),
                          [&](const Score& s) { return all[s.candidate].effect == "gravity"; });
   };
-  const Score downwards = of_gravity(score(all, *study, f, influences, projection));
+  const Score downwards = of_gravity(score(all, *set, f, influences, projection));
   EXPECT_EQ(downwards.estimate[2], 0);
   for (Candidate& c : all)
     if (c.effect == "gravity") c.strengths[2].info.upper = 20;
-  const Score either = of_gravity(score(all, *study, f, influences, projection));
+  const Score either = of_gravity(score(all, *set, f, influences, projection));
   EXPECT_GT(either.estimate[2], 5);
   EXPECT_GT(either.log_evidence, downwards.log_evidence + 10);
 }
@@ -103,7 +103,7 @@ TEST_F(Scores, ASwitchPaysForNoStrength) {
   bare.effects.erase("palate_contact");
   ASSERT_NO_FATAL_FAILURE(look_at(touching, bare));
   const Projection projection(f, errors.covariance);
-  for (const Score& s : score(all, *study, f, influences, projection)) {
+  for (const Score& s : score(all, *set, f, influences, projection)) {
     if (all[s.candidate].effect != "palate_contact") continue;
     EXPECT_TRUE(all[s.candidate].is_switch());
     EXPECT_GT(s.statistic, 4);
@@ -116,7 +116,7 @@ TEST_F(Scores, ASwitchPaysForNoStrength) {
 TEST_F(Scores, NoFitStartsFromConditionsThatAreMissing) {
   look_at(tongue);
   f.conditions.pop_back();
-  const JointFit again = fit(*study, {}, &errors, {&f.conditions});
+  const JointFit again = fit(*set, {}, &errors, {&f.conditions});
   EXPECT_FALSE(again.converged);
   EXPECT_FALSE(again.message.empty());
 }
@@ -128,7 +128,7 @@ TEST_F(Scores, AnEstimateAtItsBoundIsOneThatAModelTakesAndHasAnInterval) {
   stiffer.effects["stiff_region"] = truth.effects["stiff_region"];
   stiffer.effects["elasticity"]["a10"] *= 1.5;
   const Observations o = observed(truth, true);
-  Study stiff(stiffer, o, fitted_conditions(o));
+  ConditionSet stiff(stiffer, o, fitted_conditions(o));
   SharedPrior shared;
   shared.parameters["stiff_region.factor"] = {1, 4};
   const JointFit joint = fit(stiff, shared, nullptr);
@@ -147,7 +147,8 @@ TEST_F(Scores, CommandsAnswerToWhatComesInAndGoesAwayAsAFitDoes) {
   const auto airway = std::find_if(
       all.begin(), all.end(), [](const Candidate& c) { return c.effect == "airway_pressure"; });
   ASSERT_NE(airway, all.end());
-  Study more(airway->hypothesis->added_to(tongue), observations, fitted_conditions(observations));
+  ConditionSet more(airway->hypothesis->added_to(tongue), observations,
+                    fitted_conditions(observations));
   SharedPrior shared;
   shared.parameters["airway_pressure.pressure"] = {0, 200};
   const JointFit there = fit(more, shared, &errors, {&f.conditions});
@@ -162,9 +163,10 @@ TEST_F(Scores, CommandsAnswerToWhatComesInAndGoesAwayAsAFitDoes) {
     return std::sqrt(sum);
   };
   const double between = apart(there.conditions, f.conditions);
-  EXPECT_LT(apart(without(*airway, there, errors), f.conditions), 0.3 * between);
-  EXPECT_LT(apart(with(*airway, there.shared, *study, f, errors, influences), there.conditions),
-            0.3 * between);
+  EXPECT_LT(apart(without_candidate(*airway, there, errors), f.conditions), 0.3 * between);
+  EXPECT_LT(
+      apart(with_candidate(*airway, there.shared, *set, f, errors, influences), there.conditions),
+      0.3 * between);
 }
 
 TEST_F(Scores, AFitFromAnOpenJawHasItsJawShut) {
@@ -172,7 +174,7 @@ TEST_F(Scores, AFitFromAnOpenJawHasItsJawShut) {
   open.effects["jaw_opening"] = {{"angle", 1}};
   const Observations seen = observed(open, true);
   const auto conditions = fitted_conditions(seen);
-  Study shut(tongue, seen, conditions), opened(open, seen, conditions);
+  ConditionSet shut(tongue, seen, conditions), opened(open, seen, conditions);
   const JointFit before = fit(shut, {}, nullptr);
   const JointFit there = fit(opened, {}, nullptr, {&before.conditions});
   ASSERT_TRUE(before.converged && there.converged) << before.message << there.message;

@@ -1,4 +1,4 @@
-// Accounts of the same data are told apart by postures in which they differ.
+// Two models of the same data are separated by postures in which they differ.
 
 #include "discrepancy/contest/separation.hpp"
 
@@ -17,7 +17,7 @@ class Separation : public test::PosedTongue {
   }
 };
 
-TEST_F(Separation, AnAccountIsNotToldFromItself) {
+TEST_F(Separation, AModelIsNotSeparatedFromItself) {
   for (const Experiment& e : experiments({tongue, {}}, {tongue, {}}, observed(tongue, true)))
     EXPECT_LT(e.log_odds, 1e-2) << e.label();
 }

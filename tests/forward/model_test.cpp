@@ -25,7 +25,8 @@ TEST(Models, AChangedModelIsANewOneAndLeavesTheFirstAsItWas) {
   const Model first = test::small_model();
   const size_t effects = first.effects.size(), parameters = first.parameters.size();
   ModelParts parts = first.parts();
-  parts.effects.push_back(std::make_shared<DeadLoad>("load", Forces::Ones(first.rest.size()), 0.1));
+  parts.effects.push_back(
+      {.potential = std::make_shared<DeadLoad>("load", Forces::Ones(first.rest.size()), 0.1)});
   const Model second(std::move(parts));
   EXPECT_EQ(first.effects.size(), effects);
   EXPECT_EQ(first.parameters.size(), parameters);
@@ -37,7 +38,7 @@ TEST(Models, AChangedModelIsANewOneAndLeavesTheFirstAsItWas) {
 TEST(Models, AnEffectThatBorrowsWhatNobodyHasIsRefused) {
   const Model whole = build_model(test::with_every_effect(), "block");
   ModelParts parts = whole.parts();
-  std::erase_if(parts.effects, [](const auto& e) { return e->name() == "jaw_opening"; });
+  std::erase_if(parts.effects, [](const auto& e) { return e.name() == "jaw_opening"; });
   EXPECT_THROW(Model(std::move(parts)), InputError);
 }
 

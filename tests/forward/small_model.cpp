@@ -5,6 +5,7 @@
 
 #include "forward/geometry/box_mesh.hpp"
 #include "forward/model/build_model.hpp"
+#include "forward/model/effect_kinds.hpp"
 
 namespace genio::test {
 
@@ -59,26 +60,9 @@ ModelDescription with_every_effect() {
                   {-0.0012, -0.01, 0.03}};
   jaw.triangles = {{0, 1, 2}, {0, 2, 3}};
   d.jaw = jaw;
-  d.effects["palate_contact"]["damping"] = 8;
-  d.effects["jaw_contact"] = {{"stiffness", 2e7}, {"damping", 5}};
-  d.effects["active_stiffening"] = {{"factor", 6}};
-  d.effects["fibre_anisotropy"] = {{"modulus", 900}};
-  d.effects["material_nonlinearity"] = {{"a20", 30}, {"a30", 50}};
-  d.effects["compressibility"] = {{"compliance", 2e-5}};
-  d.effects["mucosa_layer"] = {{"a10", 500}, {"a20", 300}};
-  d.effects["stiff_region"] = {
-      {"factor", 3}, {"x", 0.006}, {"y", 0.004}, {"z", 0.006}, {"radius", 0.007}};
-  d.effects["weak_muscle"] = {{"GGP_L", 0.3}, {"GGP_R", 0.6}};
-  d.effects["extra_muscle"] = {{"from_x", 0.001}, {"from_y", 0.005}, {"from_z", 0.008},
-                               {"to_x", 0.014},   {"to_y", 0.005},   {"to_z", 0.004},
-                               {"radius", 0.004}, {"force", 0.3}};
-  d.effects["force_length"] = {{"strength", 0.7}, {"width", 0.5}, {"optimum", 1.1}};
-  d.effects["force_velocity"] = {{"strength", 0.8}, {"max_velocity", 4}};
-  d.effects["activation_dynamics"] = {};
-  d.effects["jaw_opening"] = {{"angle", 3}, {"slide", 4e-4}, {"hinge_x", 0.05}, {"hinge_z", 0.02}};
-  d.effects["hyoid_mobility"] = {{"compliance_z", 1e-3}, {"stiffness_xy", 100}};
-  d.effects["airway_pressure"] = {{"pressure", 300}};
-  d.effects["viscosity"] = {};
+  d.effects.clear();
+  for (const EffectKind& kind : effect_kinds())
+    if (!kind.always) d.effects[kind.name] = kind.sample;
   return d;
 }
 

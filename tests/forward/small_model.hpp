@@ -10,7 +10,7 @@ namespace genio::test {
 ModelDescription small_block();
 Model small_model();
 
-/// The same with every effect there is, at parameters where each does something.
+/// The same with every effect there is, at the samples of their kinds.
 ModelDescription with_every_effect();
 
 /// The generic tongue as shipped.

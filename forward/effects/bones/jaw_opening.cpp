@@ -5,14 +5,26 @@ namespace {
 
 constexpr double spring = 2.5e4;  // of an element at a node [N/m]
 
+Vec3 hinge(Settings& s) { return s.take_point("hinge_", JawMotion{}.hinge); }
+
 }  // namespace
 
 JawOpening::JawOpening(std::vector<int> nodes, const HexMesh& mesh, const JawMotion& motion)
     : nodes_(std::move(nodes)),
       rest_(rest_positions(mesh)),
       hinge_(motion.hinge),
-      info_{{{"angle", "deg", motion.angle, -5, 40, 0, true, false, 4},
-             {"slide", "m", motion.slide, -0.01, 0.02, 0, true, false, 3e-3}}} {
+      info_{{{.name = "angle",
+              .unit = "deg",
+              .value = motion.angle,
+              .lower = -5,
+              .upper = 40,
+              .load = true},
+             {.name = "slide",
+              .unit = "m",
+              .value = motion.slide,
+              .lower = -0.01,
+              .upper = 0.02,
+              .load = true}}} {
   std::vector<int> elements(mesh.nodes.size(), 0);
   for (const auto& e : mesh.elements)
     for (int a : e) ++elements[size_t(a)];
@@ -49,6 +61,33 @@ void JawOpening::add_force_derivative(const Positions&, EffectParameters p, int 
     if (k == 0) df.segment<3>(3 * a) += springs_[i] * jaw.by_angle(node_position(rest_, a));
     else df[3 * a] -= springs_[i];  // forwards is -x
   }
+}
+
+std::optional<Vec3> opening_hinge(const Anatomy& a) {
+  const auto jaw = a.description.effects.find("jaw_opening");
+  if (jaw == a.description.effects.end()) return {};
+  Settings opening(a.source, "jaw_opening", jaw->second);
+  return hinge(opening);
+}
+
+EffectKind jaw_opening_kind() {
+  return {.name = "jaw_opening",
+          .make = [](Settings& s, const Anatomy& a) -> Effect {
+            const JawMotion motion{hinge(s), s.take("angle", 0), s.take("slide", 0)};
+            return {.potential = std::make_shared<JawOpening>(nodes_with(a, Support::led),
+                                                              a.description.mesh, motion)};
+          },
+          .external = true,
+          .support = [](Support s) { return s == Support::fixed ? Support::led : s; },
+          .belief = {.parameters = {{.parameter = "angle", .typical = 4},
+                                    {.parameter = "slide", .typical = 3e-3}}},
+          .sample = {{"angle", 3}, {"slide", 4e-4}, {"hinge_x", 0.05}, {"hinge_z", 0.02}},
+          .hidden =
+              [](const ChangeDraw&) {
+                return change_by_number(
+                    "jaw_opening",
+                    {.key = "angle", .absent = 0, .unit = 1, .first = 2, .most = 20});
+              }};
 }
 
 }  // namespace genio

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "forward/effects/bones/jaw_motion.hpp"
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/geometry/mesh.hpp"
 
 namespace genio {
@@ -12,7 +12,7 @@ namespace genio {
 /// E = 1/2 sum_a k_a |x_a - X_a(angle, slide)|^2 with k_a = 2.5e4 N/m for every element at node a
 /// (half of them on the plane of half a tongue), stiff enough to stay within some micrometres of
 /// the path, so that the path is a parameter like any other. Parameters: angle [deg], slide [m].
-class JawOpening final : public Effect {
+class JawOpening final : public Potential {
  public:
   JawOpening(std::vector<int> nodes, const HexMesh& mesh, const JawMotion& motion);
 
@@ -33,5 +33,10 @@ class JawOpening final : public Effect {
   Vec3 hinge_;
   std::array<ParameterInfo, 2> info_;
 };
+
+/// Where the jaw turns, from the jaw_opening table; nothing where the jaw does not open [m].
+std::optional<Vec3> opening_hinge(const Anatomy& anatomy);
+
+EffectKind jaw_opening_kind();
 
 }  // namespace genio

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "forward/effects/places.hpp"
+
 namespace genio {
 namespace {
 
@@ -14,11 +16,53 @@ auto stretch(double force) {
   };
 }
 
+/// A bundle along a course of its own, near one that anatomy knows.
+EffectChange hidden_bundle(const ChangeDraw& draw) {
+  const ModelDescription& d = draw.tongue;
+  std::mt19937& random = draw.random;
+  std::normal_distribution<double> jitter(0, 1.5e-3);
+  const Vec3 root = d.mesh.nodes[size_t(d.landmarks.root)],
+             dorsum = d.mesh.nodes[size_t(d.landmarks.dorsum)];
+  Vec3 chin = Vec3::Zero(), hyoid = Vec3::Zero();
+  int chins = 0, hyoids = 0;
+  for (size_t a = 0; a < d.supports.size(); ++a) {
+    if (d.supports[a] == Support::fixed) chin += d.mesh.nodes[a], ++chins;
+    if (d.supports[a] == Support::horizontal) hyoid += d.mesh.nodes[a], ++hyoids;
+  }
+  chin /= std::max(1, chins), hyoid /= std::max(1, hyoids);
+  Vec3 from, to;
+  bool symmetric = true;
+  switch (random() % 3) {
+    case 0:  // horizontal genioglossus
+      from = Vec3(chin[0], 0, chin[2]), to = root;
+      break;
+    case 1:  // chondroglossus of the right
+      from = Vec3(hyoid[0], 0.004, hyoid[2]), to = dorsum + Vec3(0, 0.010, 0);
+      symmetric = false;
+      break;
+    default:  // across the back
+      from = root + Vec3(-0.008, -0.02, 0.01), to = root + Vec3(-0.008, 0.02, 0.01);
+  }
+  Vec3 shift(jitter(random), 0, jitter(random));
+  from += shift, to += shift;
+  EffectChange change = change_by_table(
+      "extra_muscle",
+      [=](double s) {
+        return EffectTable{{"from_x", from[0]}, {"from_y", from[1]}, {"from_z", from[2]},
+                           {"to_x", to[0]},     {"to_y", to[1]},     {"to_z", to[2]},
+                           {"force", s}};
+      },
+      2, 40);
+  change.symmetric = symmetric, change.drawn = true;
+  return change;
+}
+
 }  // namespace
 
 ExtraMuscle::ExtraMuscle(const HexMesh& mesh, const Vec3& from, const Vec3& to, double radius,
                          double force)
-    : info_{{{"force", "N", force, 0, 50, 0, true, false, 3}}} {
+    : info_{
+          {{.name = "force", .unit = "N", .value = force, .lower = 0, .upper = 50, .load = true}}} {
   const double length = (to - from).norm();
   if (!(length > 0) || !(radius > 0))
     throw InputError(
@@ -54,6 +98,28 @@ void ExtraMuscle::add_stiffness(const Positions& x, EffectParameters p, Stiffnes
 void ExtraMuscle::add_force_derivative(const Positions& x, EffectParameters, int,
                                        Forces& df) const {
   add_field_force(samples_, x, stretch(1.0), df);
+}
+
+EffectKind extra_muscle_kind() {
+  return {.name = "extra_muscle",
+          .make = [](Settings& s, const Anatomy& a) -> Effect {
+            const Vec3 from = s.take_point("from_", Vec3::Zero()),
+                       to = s.take_point("to_", Vec3::Zero());
+            const double radius = s.take("radius", 8e-3), force = s.take("force", 0);
+            return {.potential =
+                        std::make_shared<ExtraMuscle>(a.description.mesh, from, to, radius, force)};
+          },
+          .belief = {.parameters = {{.parameter = "force", .typical = 3}}},
+          .places = muscle_courses,
+          .sample = {{"from_x", 0.001},
+                     {"from_y", 0.005},
+                     {"from_z", 0.008},
+                     {"to_x", 0.014},
+                     {"to_y", 0.005},
+                     {"to_z", 0.004},
+                     {"radius", 0.004},
+                     {"force", 0.3}},
+          .hidden = hidden_bundle};
 }
 
 }  // namespace genio

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/tissue/fibre_field.hpp"
 
 namespace genio {
@@ -11,7 +11,7 @@ namespace genio {
 /// E = (force / A) * integral of chi |F a0| dV with chi = (1 - r^2/radius^2)^2 at the distance
 /// r < radius from the axis at rest, A = pi radius^2 / 3 its integral over a cross-section, and a0
 /// along the axis: a tension of `force` newtons, spread over the bundle. Parameter: force [N].
-class ExtraMuscle final : public Effect {
+class ExtraMuscle final : public Potential {
  public:
   /// Throws InputError when the bundle from `from` to `to` meets no tissue.
   ExtraMuscle(const HexMesh& mesh, const Vec3& from, const Vec3& to, double radius, double force);
@@ -28,5 +28,7 @@ class ExtraMuscle final : public Effect {
   std::vector<FibreSample> samples_;
   std::array<ParameterInfo, 1> info_;
 };
+
+EffectKind extra_muscle_kind();
 
 }  // namespace genio

@@ -54,11 +54,21 @@ LengthEnergy energy_of(const FibreSegment& s, double length, double width, doubl
 
 ForceLength::ForceLength(std::vector<Muscle> muscles, double strength, double width, double optimum)
     : muscles_(std::move(muscles)),
-      info_{{{"strength", "1", strength, 0, 1, 0, false, false, 1},
-             {"width", "1", width, 0.05, 5, width},
-             {"optimum", "1", optimum, 0.3, 2, optimum}}} {}
+      info_{{{.name = "strength", .unit = "1", .value = strength, .lower = 0, .upper = 1},
+             {.name = "width",
+              .unit = "1",
+              .value = width,
+              .lower = 0.05,
+              .upper = 5,
+              .absent = width},
+             {.name = "optimum",
+              .unit = "1",
+              .value = optimum,
+              .lower = 0.3,
+              .upper = 2,
+              .absent = optimum}}} {}
 
-std::vector<std::string> ForceLength::borrows() const { return command_names(muscles_); }
+std::vector<ParameterName> ForceLength::borrows() const { return command_names(muscles_); }
 
 double ForceLength::energy(const Positions& x, EffectParameters p) const {
   if (p[0] == 0) return 0;
@@ -103,6 +113,24 @@ void ForceLength::add_force_derivative(const Positions& x, EffectParameters p, i
     if (index >= 3) scale = index == int(3 + k) ? p[0] : 0.0;
     if (scale != 0) add_segment_force(muscles_[k].segments, x, scale, slope, df);
   }
+}
+
+EffectKind force_length_kind() {
+  return {
+      .name = "force_length",
+      .make = [](Settings& s, const Anatomy& a) -> Effect {
+        const double strength = s.take("strength", 1), width = s.take("width", 0.67),
+                     optimum = s.take("optimum", 1);
+        return {.potential = std::make_shared<ForceLength>(a.muscles, strength, width, optimum)};
+      },
+      .belief = {.parameters = {{.parameter = "strength", .typical = 1}}},
+      .sample = {{"strength", 0.7}, {"width", 0.5}, {"optimum", 1.1}},
+      .hidden =
+          [](const ChangeDraw&) {
+            return change_by_number(
+                "force_length",
+                {.key = "strength", .absent = 0, .unit = 1, .first = 0.5, .most = 1});
+          }};
 }
 
 }  // namespace genio

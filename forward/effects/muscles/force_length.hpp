@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/tissue/fibres.hpp"
 
 namespace genio {
@@ -12,13 +12,13 @@ namespace genio {
 /// optimum)/width)^2) with lambda = L / L_rest (the Gaussian of Thelen 2003, J. Biomech. Eng. 125,
 /// eq. 4, whose gamma is width^2 = 0.45). Strength 0: force whatever the length, as the seed model
 /// has it. Parameters: strength (0 to 1), width, optimum.
-class ForceLength final : public Effect {
+class ForceLength final : public Potential {
  public:
   ForceLength(std::vector<Muscle> muscles, double strength, double width, double optimum);
 
   std::string_view name() const override { return "force_length"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
-  std::vector<std::string> borrows() const override;
+  std::vector<ParameterName> borrows() const override;
   double energy(const Positions& x, EffectParameters p) const override;
   void add_force(const Positions& x, EffectParameters p, Forces& f) const override;
   void add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const override;
@@ -29,5 +29,7 @@ class ForceLength final : public Effect {
   std::vector<Muscle> muscles_;
   std::array<ParameterInfo, 3> info_;
 };
+
+EffectKind force_length_kind();
 
 }  // namespace genio

@@ -47,10 +47,15 @@ void add_pull(const FibreSegment& s, const Vec3& pull, Forces& f) {
 
 ForceVelocity::ForceVelocity(std::vector<Muscle> muscles, double strength, double max_velocity)
     : muscles_(std::move(muscles)),
-      info_{{{"strength", "1", strength, 0, 1, 0, false, false, 1},
-             {"max_velocity", "1/s", max_velocity, 0.1, 100, max_velocity}}} {}
+      info_{{{.name = "strength", .unit = "1", .value = strength, .lower = 0, .upper = 1},
+             {.name = "max_velocity",
+              .unit = "1/s",
+              .value = max_velocity,
+              .lower = 0.1,
+              .upper = 100,
+              .absent = max_velocity}}} {}
 
-std::vector<std::string> ForceVelocity::borrows() const { return command_names(muscles_); }
+std::vector<ParameterName> ForceVelocity::borrows() const { return command_names(muscles_); }
 
 double ForceVelocity::dissipation(const Positions& x, const Vector& v, EffectParameters p) const {
   double r = 0;
@@ -100,6 +105,16 @@ void ForceVelocity::add_viscous_force_derivative(const Positions& x, const Vecto
       add_pull(s, s.share * slope * m.along, df);
     }
   }
+}
+
+EffectKind force_velocity_kind() {
+  return {.name = "force_velocity",
+          .make = [](Settings& s, const Anatomy& a) -> Effect {
+            const double strength = s.take("strength", 1), velocity = s.take("max_velocity", 10);
+            return {.dissipation = std::make_shared<ForceVelocity>(a.muscles, strength, velocity)};
+          },
+          .belief = {.parameters = {{.parameter = "strength", .typical = 1}}},
+          .sample = {{"strength", 0.8}, {"max_velocity", 4}}};
 }
 
 }  // namespace genio

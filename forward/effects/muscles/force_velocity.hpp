@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/tissue/fibres.hpp"
 
 namespace genio {
@@ -12,18 +12,13 @@ namespace genio {
 /// L_rest): f = (1 + u) / (1 - 4 u) while it shortens, none below u = -1; f = 1.8 - 0.8 / (1 + 6.25
 /// u) while it lengthens: Hill's hyperbola and a branch that continues its slope to 1.8 times the
 /// force. Parameters: strength (0 to 1), max_velocity [1/s].
-class ForceVelocity final : public Effect {
+class ForceVelocity final : public Dissipation {
  public:
   ForceVelocity(std::vector<Muscle> muscles, double strength, double max_velocity);
 
   std::string_view name() const override { return "force_velocity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
-  std::vector<std::string> borrows() const override;
-  double energy(const Positions&, EffectParameters) const override { return 0; }
-  void add_force(const Positions&, EffectParameters, Forces&) const override {}
-  void add_stiffness(const Positions&, EffectParameters, Stiffness&) const override {}
-  void add_force_derivative(const Positions&, EffectParameters, int, Forces&) const override {}
-
+  std::vector<ParameterName> borrows() const override;
   double dissipation(const Positions& x, const Vector& v, EffectParameters p) const override;
   void add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
                          Forces& f) const override;
@@ -36,5 +31,7 @@ class ForceVelocity final : public Effect {
   std::vector<Muscle> muscles_;
   std::array<ParameterInfo, 2> info_;
 };
+
+EffectKind force_velocity_kind();
 
 }  // namespace genio

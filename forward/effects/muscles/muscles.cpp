@@ -5,7 +5,8 @@
 namespace genio {
 
 Muscles::Muscles(std::vector<Muscle> muscles) : muscles_(std::move(muscles)) {
-  for (const Muscle& m : muscles_) info_.push_back({m.name, "N", 0, 0, m.max_force, 0, true});
+  for (const Muscle& m : muscles_)
+    info_.push_back({.name = m.name, .unit = "N", .upper = m.max_force, .load = true});
 }
 
 double Muscles::energy(const Positions& x, EffectParameters p) const {
@@ -30,5 +31,15 @@ void Muscles::add_stiffness(const Positions& x, EffectParameters p, Stiffness& s
 }
 
 std::vector<std::pair<int, int>> Muscles::couplings() const { return segment_couplings(muscles_); }
+
+Effect muscle_commands(std::vector<Muscle> muscles) {
+  return {.potential = std::make_shared<Muscles>(std::move(muscles)), .commands = true};
+}
+
+EffectKind muscles_kind() {
+  return {.name = "muscles",
+          .make = [](Settings&, const Anatomy& a) { return muscle_commands(a.muscles); },
+          .always = true};
+}
 
 }  // namespace genio

@@ -1,5 +1,5 @@
 #pragma once
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/tissue/fibres.hpp"
 
 namespace genio {
@@ -10,7 +10,7 @@ namespace genio {
 /// two ends together with the force T_k share_s along its present direction (the distributed forces
 /// of Payan & Perrier 1997, in large deformation); very short segments let go (unit_tension).
 /// Parameters: one a command ("GGP_L", ...), its whole force [N], from 0 to the muscle's maximum.
-class Muscles final : public Effect {
+class Muscles final : public Potential {
  public:
   explicit Muscles(std::vector<Muscle> muscles);
 
@@ -27,5 +27,10 @@ class Muscles final : public Effect {
   std::vector<Muscle> muscles_;
   std::vector<ParameterInfo> info_;
 };
+
+/// The effect "muscles", whose parameters are the commands.
+Effect muscle_commands(std::vector<Muscle> muscles);
+
+EffectKind muscles_kind();
 
 }  // namespace genio

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "forward/geometry/quad4.hpp"
+#include "forward/tissue/tongue_faces.hpp"
 
 namespace genio {
 namespace {
@@ -20,6 +21,17 @@ struct At {
   }
 };
 
+/// Of the tongue's free faces those that look up or back.
+std::vector<Quad> airway_faces(const HexMesh& mesh, const std::vector<Support>& supports) {
+  std::vector<Quad> faces;
+  for (const Quad& f : free_faces(mesh, supports)) {
+    const Vec3 normal = (mesh.nodes[size_t(f[2])] - mesh.nodes[size_t(f[0])])
+                            .cross(mesh.nodes[size_t(f[3])] - mesh.nodes[size_t(f[1])]);
+    if (normal.dot(Vec3(0.5, 0, 1)) > 0) faces.push_back(f);
+  }
+  return faces;
+}
+
 }  // namespace
 
 AirwayPressure::AirwayPressure(const HexMesh& mesh, const std::vector<Support>& supports,
@@ -27,7 +39,12 @@ AirwayPressure::AirwayPressure(const HexMesh& mesh, const std::vector<Support>& 
     : faces_(std::move(faces)),
       centre_(Vec3::Zero()),
       normal_(Vec3::Zero()),
-      info_{{{"pressure", "Pa", pressure, -1e4, 1e4, 0, true, false, 400}}} {
+      info_{{{.name = "pressure",
+              .unit = "Pa",
+              .value = pressure,
+              .lower = -1e4,
+              .upper = 1e4,
+              .load = true}}} {
   std::map<std::pair<int, int>, int> edges;  // met once: the rim
   for (const Quad& face : faces_)
     for (int a = 0; a < 4; ++a) ++edges[std::minmax(face[a], face[(a + 1) % 4])];
@@ -101,6 +118,24 @@ void AirwayPressure::add_force_derivative(const Positions& x, EffectParameters, 
                                           Forces& df) const {
   const double one[] = {1.0};
   add_force(x, one, df);  // linear in the pressure
+}
+
+EffectKind airway_pressure_kind() {
+  return {.name = "airway_pressure",
+          .make = [](Settings& s, const Anatomy& a) -> Effect {
+            const HexMesh& mesh = a.description.mesh;
+            return {.potential = std::make_shared<AirwayPressure>(
+                        mesh, a.supports, airway_faces(mesh, a.supports), s.take("pressure", 0))};
+          },
+          .external = true,
+          .belief = {.parameters = {{.parameter = "pressure", .typical = 400}}},
+          .sample = {{"pressure", 300}},
+          .hidden =
+              [](const ChangeDraw&) {
+                return change_by_number(
+                    "airway_pressure",
+                    {.key = "pressure", .absent = 0, .unit = 100, .first = 2, .most = 40});
+              }};
 }
 
 }  // namespace genio

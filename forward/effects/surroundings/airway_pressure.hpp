@@ -2,7 +2,7 @@
 #include <array>
 
 #include "forward/algebra/supports.hpp"
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/geometry/mesh.hpp"
 
 namespace genio {
@@ -15,7 +15,7 @@ namespace genio {
 /// the pressure on the curtain from rim to plane, which keeps the load conservative. Half a tongue
 /// has the plane of the whole; where it was cut is no rim. Parameter: pressure [Pa], above that
 /// outside.
-class AirwayPressure final : public Effect {
+class AirwayPressure final : public Potential {
  public:
   AirwayPressure(const HexMesh& mesh, const std::vector<Support>& supports, std::vector<Quad> faces,
                  double pressure);
@@ -33,5 +33,7 @@ class AirwayPressure final : public Effect {
   Vec3 centre_, normal_;
   std::array<ParameterInfo, 1> info_;
 };
+
+EffectKind airway_pressure_kind();
 
 }  // namespace genio

@@ -5,6 +5,11 @@ namespace genio {
 DeadLoad::DeadLoad(std::string name, Forces weights, double force)
     : name_(std::move(name)),
       weights_(std::move(weights)),
-      info_{{{"force", "N", force, -1e6, 1e6, 0, true}}} {}
+      info_{{{.name = "force",
+              .unit = "N",
+              .value = force,
+              .lower = -1e6,
+              .upper = 1e6,
+              .load = true}}} {}
 
 }  // namespace genio

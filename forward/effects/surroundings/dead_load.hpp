@@ -2,13 +2,13 @@
 #include <array>
 #include <string>
 
-#include "forward/effects/effect.hpp"
+#include "forward/effects/potential.hpp"
 
 namespace genio {
 
 /// Forces that keep their direction: E = -p sum_a w_a . x_a with nodal weights w that the caller
 /// gives, for verification problems. Parameter "force": p [N].
-class DeadLoad final : public Effect {
+class DeadLoad final : public Potential {
  public:
   /// `weights`: 3 n, newtons on each node per newton of the parameter.
   DeadLoad(std::string name, Forces weights, double force);

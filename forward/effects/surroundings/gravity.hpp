@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/geometry/mesh.hpp"
 
 namespace genio {
@@ -10,16 +10,12 @@ namespace genio {
 /// acceleration in the frame of the head. Parameters x, y, z: the acceleration for an upright head
 /// [m/s^2], absent at 0; pitch: how far the head is tilted backwards [deg], 90 where the speaker
 /// lies on the back.
-class Gravity final : public Effect {
+class Gravity final : public Potential {
  public:
   Gravity(const NodeMatrix& mass, const Vec3& acceleration, double pitch = 0);
 
   std::string_view name() const override { return "gravity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
-  /// A vector: its three parts at once.
-  std::vector<Strength> strengths() const override { return {{"", {{0}, {1}, {2}}}}; }
-  /// Between upright, with the head bowed a little, and supine; little to a side.
-  std::string implausible(EffectParameters p) const override;
   double energy(const Positions& x, EffectParameters p) const override;
   void add_force(const Positions& x, EffectParameters p, Forces& f) const override;
   void add_stiffness(const Positions&, EffectParameters, Stiffness&) const override {}
@@ -32,5 +28,7 @@ class Gravity final : public Effect {
   Vector mass_;
   std::array<ParameterInfo, 4> info_;
 };
+
+EffectKind gravity_kind();
 
 }  // namespace genio

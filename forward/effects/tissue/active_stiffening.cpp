@@ -1,5 +1,7 @@
 #include "forward/effects/tissue/active_stiffening.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "forward/tissue/segment_forces.hpp"
@@ -24,18 +26,23 @@ BatchTissue scaled(const ElementBatch& batch, double a10, double a20, Scale scal
 
 ActiveStiffening::ActiveStiffening(const HexMesh& mesh, std::vector<Muscle> muscles, double factor,
                                    Recruitment recruitment)
-    : TissueEffect(mesh),
+    : TissuePotential(mesh),
       muscles_(std::move(muscles)),
       through_(mesh.elements.size()),
       recruitment_(recruitment),
-      info_{{{"factor", "1", factor, 1, 100, 1, false, false, 9}}} {
+      info_{{{.name = "factor",
+              .unit = "1",
+              .value = factor,
+              .lower = 1,
+              .upper = 100,
+              .absent = 1}}} {
   for (size_t k = 0; k < muscles_.size(); ++k)
     for (int e : muscles_[k].elements) through_[size_t(e)].push_back(int(k));
 }
 
-std::vector<std::string> ActiveStiffening::borrows() const {
-  std::vector<std::string> names = command_names(muscles_);
-  names.insert(names.begin(), {"elasticity.a10", "elasticity.a20"});
+std::vector<ParameterName> ActiveStiffening::borrows() const {
+  std::vector<ParameterName> names = command_names(muscles_);
+  names.insert(names.begin(), {{"elasticity", "a10"}, {"elasticity", "a20"}});
   return names;
 }
 
@@ -69,6 +76,29 @@ BatchTissue ActiveStiffening::tissue_derivative(size_t b, EffectParameters p, in
                   [&](int e) { return (p[0] - 1) * activation(e, p); });
   return scaled(batches_[b], p[1], p[2],
                 [&](int e) { return (p[0] - 1) * activation_derivative(e, p, k - first_command); });
+}
+
+EffectKind active_stiffening_kind() {
+  return {.name = "active_stiffening",
+          .make = [](Settings& s, const Anatomy& a) -> Effect {
+            const double factor = s.take("factor", 10), largest = s.take("largest", 0);
+            if (largest != 0 && largest != 1)
+              throw InputError(
+                  fmt::format("{}: [effect.active_stiffening] largest = {}; expected 0 (muscles "
+                              "of an element add up) or 1 (the largest counts)",
+                              a.source, largest));
+            return {.potential = std::make_shared<ActiveStiffening>(
+                        a.description.mesh, a.muscles, factor,
+                        largest == 1 ? Recruitment::largest : Recruitment::sum)};
+          },
+          .belief = {.parameters = {{.parameter = "factor", .typical = 9}}},
+          .sample = {{"factor", 6}},
+          .hidden =
+              [](const ChangeDraw&) {
+                return change_by_number(
+                    "active_stiffening",
+                    {.key = "factor", .absent = 1, .unit = 1, .first = 9, .most = 90});
+              }};
 }
 
 }  // namespace genio

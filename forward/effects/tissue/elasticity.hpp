@@ -1,7 +1,8 @@
 #pragma once
 #include <array>
 
-#include "forward/effects/tissue/tissue_effect.hpp"
+#include "forward/effects/kind.hpp"
+#include "forward/effects/tissue/tissue_potential.hpp"
 
 namespace genio {
 
@@ -12,41 +13,34 @@ struct TissueConstants {
 };
 
 /// Passive tissue: the same Yeoh law everywhere (batch_energy). Parameters: a10, a20, kappa [Pa].
-///
-/// Where a viscosity effect is present, its part that goes with the stiffness is carried here, next
-/// to the kernels: R = 1/2 beta v.K(x) v with its parameter beta [s], borrowed.
-class Elasticity final : public TissueEffect {
+class Elasticity final : public TissuePotential {
  public:
-  Elasticity(const HexMesh& mesh, const TissueConstants& constants, bool viscous = false);
+  Elasticity(const HexMesh& mesh, const TissueConstants& constants);
 
   std::string_view name() const override { return "elasticity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
-  std::vector<std::string> borrows() const override;
-  void add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
-                         Forces& f) const override;
-  void add_forces_in_motion(const Positions& x, const Vector& v, EffectParameters p, Forces& f,
-                            Forces& viscous) const override;
-  void add_damping(const Positions& x, const Vector& v, EffectParameters p,
-                   Stiffness& c) const override;
-  void add_viscous_force_slope(const Positions& x, const Vector& v, EffectParameters p,
-                               const Matrix& along, Stiffness& scratch, Matrix& df) const override;
-  void add_viscous_force_derivative(const Positions& x, const Vector& v, EffectParameters p, int k,
-                                    Forces& df) const override;
   /// No Gauss point loses more than three quarters of its volume in one step.
   double step_limit(const Positions& x, const Positions& along, EffectParameters) const override;
 
- private:
-  BatchTissue tissue(size_t, EffectParameters p) const override {
+  const std::vector<ElementBatch>& batches() const { return batches_; }
+  /// What every element is made of.
+  static BatchTissue uniform(EffectParameters p) {
     return BatchTissue::uniform(p[0], p[1], 0, p[2]);
   }
+
+ private:
+  BatchTissue tissue(size_t, EffectParameters p) const override { return uniform(p); }
   BatchTissue tissue_derivative(size_t, EffectParameters, int k) const override {
     return BatchTissue::uniform(k == 0, k == 1, 0, k == 2);
   }
 
-  double beta(EffectParameters p) const { return viscous_ ? p[3] : 0; }
-
-  bool viscous_;
   std::array<ParameterInfo, 3> info_;
 };
+
+/// The effect "elasticity". `viscous`: the model has a viscosity, whose part that goes with the
+/// tissue's stiffness is carried here, next to the kernels (TissueViscosity).
+Effect elastic_tissue(const HexMesh& mesh, const TissueConstants& constants, bool viscous = false);
+
+EffectKind elasticity_kind();
 
 }  // namespace genio

@@ -44,7 +44,7 @@ Vec3 fibre_direction(const Muscle& muscle, const Positions& rest, const Vec3& po
 
 FibreAnisotropy::FibreAnisotropy(const HexMesh& mesh, const std::vector<Muscle>& muscles,
                                  double modulus)
-    : info_{{{"modulus", "Pa", modulus, 0, 1e6, 0, false, false, 5e3}}} {
+    : info_{{{.name = "modulus", .unit = "Pa", .value = modulus, .lower = 0, .upper = 1e6}}} {
   const Positions rest = rest_positions(mesh);
   std::vector<int> families(mesh.elements.size(), 0);
   for (const Muscle& m : muscles)
@@ -72,6 +72,22 @@ void FibreAnisotropy::add_stiffness(const Positions& x, EffectParameters p, Stif
 void FibreAnisotropy::add_force_derivative(const Positions& x, EffectParameters, int,
                                            Forces& df) const {
   add_field_force(samples_, x, fibre_law(1.0), df);
+}
+
+EffectKind fibre_anisotropy_kind() {
+  return {.name = "fibre_anisotropy",
+          .make = [](Settings& s, const Anatomy& a) -> Effect {
+            return {.potential = std::make_shared<FibreAnisotropy>(a.description.mesh, a.muscles,
+                                                                   s.take("modulus", 0))};
+          },
+          .belief = {.parameters = {{.parameter = "modulus", .typical = 5e3}}},
+          .sample = {{"modulus", 900}},
+          .hidden =
+              [](const ChangeDraw&) {
+                return change_by_number(
+                    "fibre_anisotropy",
+                    {.key = "modulus", .absent = 0, .unit = 1e3, .first = 4, .most = 200});
+              }};
 }
 
 }  // namespace genio

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/tissue/fibre_field.hpp"
 #include "forward/tissue/fibres.hpp"
 
@@ -14,7 +14,7 @@ namespace genio {
 /// with an equal share of its volume: interwoven families (Wilhelms-Tricarico 1995; Takemoto 2001).
 /// For small strains beyond the toe, `modulus` is Young's modulus along the fibres on top of the
 /// tissue's. Parameter: modulus [Pa].
-class FibreAnisotropy final : public Effect {
+class FibreAnisotropy final : public Potential {
  public:
   FibreAnisotropy(const HexMesh& mesh, const std::vector<Muscle>& muscles, double modulus);
 
@@ -36,5 +36,7 @@ class FibreAnisotropy final : public Effect {
 /// septum there, and half a tongue has only its own. All count where a muscle has none on
 /// the point's side.
 Vec3 fibre_direction(const Muscle& muscle, const Positions& rest, const Vec3& point);
+
+EffectKind fibre_anisotropy_kind();
 
 }  // namespace genio

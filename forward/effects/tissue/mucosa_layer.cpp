@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "forward/geometry/quad4.hpp"
+#include "forward/tissue/tongue_faces.hpp"
 #include "forward/tissue/yeoh.hpp"
 
 namespace genio {
@@ -46,9 +47,9 @@ MucosaLayer::State MucosaLayer::state(const Point& p, const Positions& x) {
 
 MucosaLayer::MucosaLayer(const HexMesh& mesh, const std::vector<Quad>& faces, double a10,
                          double a20, double thickness)
-    : info_{{{"a10", "Pa", a10, 0, 1e7, 0, false, false, 1e4},
-             {"a20", "Pa", a20, 0, 1e7, 0},
-             {"thickness", "m", thickness, 0, 1e-2, 0}}} {
+    : info_{{{.name = "a10", .unit = "Pa", .value = a10, .lower = 0, .upper = 1e7},
+             {.name = "a20", .unit = "Pa", .value = a20, .lower = 0, .upper = 1e7},
+             {.name = "thickness", .unit = "m", .value = thickness, .lower = 0, .upper = 1e-2}}} {
   for (const Quad& face : faces)
     for (const auto& gauss : quad4::gauss_points()) {
       Eigen::Matrix<double, 3, 2> g = Eigen::Matrix<double, 3, 2>::Zero();
@@ -110,6 +111,25 @@ void MucosaLayer::add_force_derivative(const Positions& x, EffectParameters p, i
                                        : p[1],
                               k == 2 ? 1 : p[2]};
   add_force(x, per_unit, df);  // linear in the constants and in the thickness
+}
+
+EffectKind mucosa_layer_kind() {
+  return {.name = "mucosa_layer",
+          .make = [](Settings& s, const Anatomy& a) -> Effect {
+            const double a10 = s.take("a10", 0), a20 = s.take("a20", 0),
+                         thickness = s.take("thickness", 1e-3);
+            const HexMesh& mesh = a.description.mesh;
+            return {.potential = std::make_shared<MucosaLayer>(mesh, free_faces(mesh, a.supports),
+                                                               a10, a20, thickness)};
+          },
+          .belief = {.parameters = {{.parameter = "a10", .typical = 1e4}}},
+          .sample = {{"a10", 500}, {"a20", 300}},
+          .hidden =
+              [](const ChangeDraw&) {
+                return change_by_number(
+                    "mucosa_layer",
+                    {.key = "a10", .absent = 0, .unit = 1e3, .first = 8, .most = 500});
+              }};
 }
 
 }  // namespace genio

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "forward/effects/effect.hpp"
+#include "forward/effects/kind.hpp"
 #include "forward/geometry/mesh.hpp"
 
 namespace genio {
@@ -11,7 +11,7 @@ namespace genio {
 /// E = thickness * integral over the rest area of a10 (I - 3) + a20 (I - 3)^2, I = tr C + 1 / det C
 /// with C the in-plane right Cauchy-Green tensor (plane stress; Holzapfel 2000, section 6.5), by
 /// 2 x 2 Gauss points a face. Parameters: a10, a20 [Pa], thickness [m].
-class MucosaLayer final : public Effect {
+class MucosaLayer final : public Potential {
  public:
   MucosaLayer(const HexMesh& mesh, const std::vector<Quad>& faces, double a10, double a20,
               double thickness);
@@ -38,5 +38,7 @@ class MucosaLayer final : public Effect {
   std::vector<Point> points_;
   std::array<ParameterInfo, 3> info_;
 };
+
+EffectKind mucosa_layer_kind();
 
 }  // namespace genio

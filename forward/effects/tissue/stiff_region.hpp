@@ -1,7 +1,8 @@
 #pragma once
 #include <array>
 
-#include "forward/effects/tissue/tissue_effect.hpp"
+#include "forward/effects/kind.hpp"
+#include "forward/effects/tissue/tissue_potential.hpp"
 
 namespace genio {
 
@@ -9,7 +10,7 @@ namespace genio {
 /// chi = (1 - r^2/radius^2)^3 at the distance r < radius from the centre at rest, so that place and
 /// size have derivatives too; a material_nonlinearity's a20 and a30 with them. Parameters: factor
 /// (absent 1), x, y, z, radius [m].
-class StiffRegion final : public TissueEffect {
+class StiffRegion final : public TissuePotential {
  public:
   /// `nonlinear`: the tongue has a material_nonlinearity, too.
   StiffRegion(const HexMesh& mesh, double factor, const Vec3& centre, double radius,
@@ -17,7 +18,7 @@ class StiffRegion final : public TissueEffect {
 
   std::string_view name() const override { return "stiff_region"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
-  std::vector<std::string> borrows() const override { return borrows_; }
+  std::vector<ParameterName> borrows() const override { return borrows_; }
 
  private:
   bool present(EffectParameters p) const override { return p[0] != 1; }
@@ -26,7 +27,9 @@ class StiffRegion final : public TissueEffect {
 
   std::vector<std::array<std::array<Vec3, lanes::width>, 8>> points_;  // Gauss points of each batch
   std::array<ParameterInfo, 5> info_;
-  std::vector<std::string> borrows_{"elasticity.a10", "elasticity.a20"};
+  std::vector<ParameterName> borrows_{{"elasticity", "a10"}, {"elasticity", "a20"}};
 };
+
+EffectKind stiff_region_kind();
 
 }  // namespace genio

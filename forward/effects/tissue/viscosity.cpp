@@ -4,8 +4,8 @@ namespace genio {
 
 Viscosity::Viscosity(NodeMatrix mass, double alpha, double beta)
     : mass_(std::move(mass)),
-      info_{{{"alpha", "1/s", alpha, 0, 1e4, 0, false, false, 40},
-             {"beta", "s", beta, 0, 10, 0, false, false, 0.03}}} {}
+      info_{{{.name = "alpha", .unit = "1/s", .value = alpha, .lower = 0, .upper = 1e4},
+             {.name = "beta", .unit = "s", .value = beta, .lower = 0, .upper = 10}}} {}
 
 void Viscosity::add_viscous_force(const Positions&, const Vector& v, EffectParameters p,
                                   Forces& f) const {
@@ -20,6 +20,16 @@ void Viscosity::add_damping(const Positions&, const Vector&, EffectParameters p,
 void Viscosity::add_viscous_force_derivative(const Positions&, const Vector& v, EffectParameters,
                                              int k, Forces& df) const {
   if (k == 0) df -= multiply(mass_, v);
+}
+
+EffectKind viscosity_kind() {
+  return {.name = "viscosity",
+          .make = [](Settings& s, const Anatomy& a) -> Effect {
+            const double alpha = s.take("alpha", 40), beta = s.take("beta", 0.03);
+            return {.dissipation = std::make_shared<Viscosity>(a.mass, alpha, beta)};
+          },
+          .belief = {.parameters = {{.parameter = "alpha", .typical = 40},
+                                    {.parameter = "beta", .typical = 0.03}}}};
 }
 
 }  // namespace genio

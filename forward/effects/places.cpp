@@ -1,4 +1,4 @@
-#include "forward/model/places.hpp"
+#include "forward/effects/places.hpp"
 
 #include <algorithm>
 
@@ -105,6 +105,14 @@ std::vector<Place> muscle_courses(const ModelDescription& d) {
   across("palatoglossus", back + 0.006 * (deep - back).normalized());
   across("glossopharyngeus", root + 0.008 * (deep - root).normalized());
   return result;
+}
+
+Vec3 drawn_on_dorsum(const ModelDescription& d, std::mt19937& random) {
+  size_t tip = 0;
+  while (d.midsagittal[tip] != d.landmarks.tip) ++tip;
+  const size_t last = d.midsagittal.size() - 2;
+  std::uniform_int_distribution<size_t> pick(tip + 2, last);
+  return d.mesh.nodes[size_t(d.midsagittal[pick(random)])];
 }
 
 }  // namespace genio

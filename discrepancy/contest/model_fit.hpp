@@ -10,13 +10,13 @@ namespace genio {
 constexpr double far_behind = 30;  ///< units of log posterior behind the best
 
 /// A fit under one account of the data: the model as it is, or with one candidate more.
-struct Account {
-  ModelDescription description;  ///< with it, at vanishing strength
-  SharedPrior shared;            ///< its numbers and those of earlier effects
-  std::shared_ptr<Study> study;  ///< of the fitted conditions
+struct ModelFit {
+  ModelDescription description;       ///< with it, at vanishing strength
+  SharedPrior shared;                 ///< its numbers and those of earlier effects
+  std::shared_ptr<ConditionSet> set;  ///< of the fitted conditions
   JointFit fit;
   double chi_square = 0, dof = 0;  ///< of the residuals
-  std::shared_ptr<Study> heldout_study;
+  std::shared_ptr<ConditionSet> heldout_set;
   JointFit heldout;                        ///< conditions held out, its parameters as fitted
   std::shared_ptr<Refinement> refinement;  ///< under it; null: under the model as it was
   std::string message;                     ///< why it could not be fitted
@@ -25,7 +25,7 @@ struct Account {
 };
 
 /// What selection needs of the data beside the candidates.
-struct Evidence {
+struct DataErrors {
   const Observations& observations;
   Errors fitted, heldout;  ///< of the conditions to fit, and of those held out
 };
@@ -34,13 +34,13 @@ struct Evidence {
 /// score's estimate on; a switch at its typical strength, with every condition inverted anew where
 /// it squeezes the base's commands into a worse valley. It gives up once minus the log posterior
 /// does not come below `hopeless`.
-Account refit(const Account& base, const Candidate& candidate, const Score& score,
-              const Evidence& evidence, double hopeless);
+ModelFit refit(const ModelFit& base, const Candidate& candidate, const Score& score,
+               const DataErrors& evidence, double give_up_above);
 
 /// Fits the held-out conditions under an account, its shared parameters at their fitted values,
 /// from `start` (null: inverted anew). Nothing where none are held out.
-void fit_heldout(Account& account, const std::vector<FittedCondition>* start,
-                 const Evidence& evidence);
+void with_heldout_fit(ModelFit& account, const std::vector<FittedCondition>* start,
+                      const DataErrors& evidence);
 
 /// True where it explains the data better than `other`, whatever the volumes of their posteriors.
 bool improves(const JointFit& fit, const JointFit& other);
@@ -51,13 +51,13 @@ inline bool reaches_all(const JointFit& fit, const JointFit& before) {
 }
 
 /// Sets chi_square and dof of its fit.
-void test_residuals(Account& account, const Errors& errors);
+void with_residual_test(ModelFit& account, const Errors& errors);
 
 /// Where shared parameters stand in a description: fitted values written into its effects.
 ModelDescription with_fitted(ModelDescription description, const JointFit& fit);
 
 /// A fitted account by itself.
-Explanation explanation_of(const Account& account);
+PosedModel posed_model_of(const ModelFit& account);
 
 /// Log probability of candidates before data: half for nothing, the rest in equal parts for every
 /// effect, and of each for its places.

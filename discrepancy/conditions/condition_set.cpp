@@ -1,4 +1,4 @@
-#include "discrepancy/conditions/study.hpp"
+#include "discrepancy/conditions/condition_set.hpp"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ std::vector<size_t> where(const Observations& o, bool heldout) {
 
 }  // namespace
 
-ModelDescription under(ModelDescription d, const std::map<std::string, double>& effects) {
+ModelDescription with_effects(ModelDescription d, const std::map<std::string, double>& effects) {
   for (const auto& [name, value] : effects) d = with_parameter(std::move(d), name, value);
   return d;
 }
@@ -26,8 +26,8 @@ ModelDescription under(ModelDescription d, const std::map<std::string, double>& 
 std::vector<size_t> fitted_conditions(const Observations& o) { return where(o, false); }
 std::vector<size_t> heldout_conditions(const Observations& o) { return where(o, true); }
 
-Study::Study(ModelDescription description, const Observations& observations,
-             std::vector<size_t> members)
+ConditionSet::ConditionSet(ModelDescription description, const Observations& observations,
+                           std::vector<size_t> members)
     : description_(std::move(description)),
       observations_(observations),
       members_(std::move(members)) {
@@ -38,17 +38,17 @@ Study::Study(ModelDescription description, const Observations& observations,
     tongue_.push_back(size_t(at - known.begin()));
     if (at != known.end()) continue;
     known.push_back(effects);
-    const ModelDescription d = under(description_, effects);
+    const ModelDescription d = with_effects(description_, effects);
     tongues_.push_back(
         std::make_unique<Tongue>(std::make_unique<const Model>(build_model(d, d.name))));
   }
 }
 
-bool Study::bilateral(size_t k) const {
+bool ConditionSet::bilateral(size_t k) const {
   return observations_.bilateral && !condition(k).forces.has_value();
 }
 
-Prior Study::prior(size_t k) const {
+Prior ConditionSet::prior(size_t k) const {
   Prior prior;
   prior.effort_sd = observations_.effort_sd;
   prior.head_pose = observations_.head_pose;

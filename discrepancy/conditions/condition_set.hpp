@@ -11,11 +11,11 @@
 namespace genio {
 
 /// Models of a description under what is known of each condition; equal ones are shared.
-class Study {
+class ConditionSet {
  public:
-  /// `members`: indices of conditions. The observations must outlive the study.
-  Study(ModelDescription description, const Observations& observations,
-        std::vector<size_t> members);
+  /// `members`: indices of conditions. The observations must outlive the set.
+  ConditionSet(ModelDescription description, const Observations& observations,
+               std::vector<size_t> members);
 
   size_t size() const { return members_.size(); }
   const std::vector<size_t>& members() const { return members_; }
@@ -23,8 +23,8 @@ class Study {
   const Observations& observations() const { return observations_; }
   const Condition& condition(size_t k) const { return observations_.conditions[members_[k]]; }
   const Model& model(size_t k) const { return *tongues_[tongue_[k]]->model; }
-  Workspace& workspace(size_t k) { return inferring(k).whole().workspace; }
-  InferWorkspace& inferring(size_t k) { return tongues_[tongue_[k]]->workspace; }
+  Workspace& workspace(size_t k) { return infer_workspace(k).whole().workspace; }
+  InferWorkspace& infer_workspace(size_t k) { return tongues_[tongue_[k]]->workspace; }
   /// What is believed of its commands.
   Prior prior(size_t k) const;
   /// True where its commands drive both sides alike.
@@ -44,7 +44,8 @@ class Study {
 };
 
 /// A description under known effects.
-ModelDescription under(ModelDescription description, const std::map<std::string, double>& effects);
+ModelDescription with_effects(ModelDescription description,
+                              const std::map<std::string, double>& effects);
 
 /// Indices of the conditions to fit, or of those held out.
 std::vector<size_t> fitted_conditions(const Observations& observations);

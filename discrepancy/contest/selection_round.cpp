@@ -1,4 +1,4 @@
-#include "discrepancy/contest/contest.hpp"
+#include "discrepancy/contest/selection_round.hpp"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Refits {
  public:
-  Refits(Base& base, Contest& contest, const std::vector<Candidate>& found,
+  Refits(NullModel& base, SelectionRound& contest, const std::vector<Candidate>& found,
          const DiscoverOptions& options)
       : base_(base),
         contest_(contest),
@@ -36,7 +36,7 @@ class Refits {
 
   /// Scores and prior odds of all candidates.
   void score(const std::vector<Matrix>& influences, const Projection& projection) {
-    scores_ = genio::score(all_, *base_.account.study, base_.account.fit, influences, projection);
+    scores_ = genio::score(all_, *base_.account.set, base_.account.fit, influences, projection);
     contest_.accounts.resize(scores_.size());
     for (const Score& s : scores_)
       contest_.round.candidates.push_back(
@@ -56,10 +56,10 @@ class Refits {
     contest_.best = weigh(round, refitted_);
     if (refitted_.empty() || round.nothing >= options_.nothing) return;
     part_close_ones(found);
-    const double gain =
-        follow(base_, contest_.accounts[contest_.best], round.candidates[contest_.best].candidate);
+    const double gain = restarted(base_, contest_.accounts[contest_.best],
+                                  round.candidates[contest_.best].candidate);
     if (gain > 0) {
-      tell(fmt::format("  the model as it is does better from there: {:+.1f}", gain));
+      report_progress(fmt::format("  the model as it is does better from there: {:+.1f}", gain));
       for (size_t i : refitted_) take_odds(i);
       contest_.best = weigh(round, refitted_);
     }
@@ -86,89 +86,91 @@ class Refits {
       if (!is_close(i)) continue;
       std::vector<Candidate> effects = found;
       effects.push_back(all[i].candidate);
-      settle_account(base_, contest_.accounts[i], effects);
+      with_mesh_error(base_, contest_.accounts[i], effects);
       take_odds(i);
       best = std::max(best, all[i].log_odds);
-      tell(fmt::format("  {} with the mesh's error under it: log odds {:.1f}",
-                       all[i].candidate.label(), all[i].log_odds));
+      report_progress(fmt::format("  {} with the mesh's error under it: log odds {:.1f}",
+                                  all[i].candidate.label(), all[i].log_odds));
     }
     contest_.best = weigh(contest_.round, refitted_);
   }
 
-  void tell(const std::string& line) const {
+  void report_progress(const std::string& line) const {
     if (options_.progress) options_.progress(line);
   }
 
-  double heldout_gain(const Account& a) const {
+  double heldout_gain(const ModelFit& a) const {
     return a.heldout.log_evidence - base_.account.heldout.log_evidence;
   }
 
   /// Log evidence over the base's, on all data.
   void take_odds(size_t i) {
-    const Account& a = contest_.accounts[i];
-    Ranked& r = contest_.round.candidates[i];
+    const ModelFit& a = contest_.accounts[i];
+    RankedCandidate& r = contest_.round.candidates[i];
     r.heldout_gain = heldout_gain(a);
     r.log_odds = a.fit.log_evidence - base_.account.fit.log_evidence + r.heldout_gain +
                  prior_[scores_[i].candidate];
   }
 
   void refit_one(size_t i) {
-    Ranked& r = contest_.round.candidates[i];
-    Account& account = contest_.accounts[i];
-    tell(fmt::format("  refitting {}, log odds {:.1f} by its score", r.candidate.label(),
-                     r.log_odds));
+    RankedCandidate& r = contest_.round.candidates[i];
+    ModelFit& account = contest_.accounts[i];
+    report_progress(fmt::format("  refitting {}, log odds {:.1f} by its score", r.candidate.label(),
+                                r.log_odds));
     account = refit(base_.account, r.candidate, scores_[i], base_.evidence,
                     best_ ? best_->fit.value + far_behind : infinity);
     r.message = account.message;
-    if (!account.fitted()) return tell(fmt::format("    given up: {}", r.message));
+    if (!account.fitted()) return report_progress(fmt::format("    given up: {}", r.message));
     r.refitted = true;
     const double gain = account.fit.log_evidence - base_.account.fit.log_evidence;
     r.log_odds = gain + prior_[scores_[i].candidate];
     if (gain < gained_ - far_behind) return;
     if (!fit_heldout_of(i)) {
       r.message = "does not reach the conditions held out: " + account.heldout.message;
-      return tell("    " + r.message);
+      return report_progress("    " + r.message);
     }
     if (gain > gained_ || !best_) gained_ = std::max(gain, gained_), best_ = &account;
     refitted_.push_back(i);
     take_odds(i);
-    tell(fmt::format("    log odds {:.1f} ({:+.1f} by conditions held out), chi2 {:.0f} of {:.0f}",
-                     r.log_odds, r.heldout_gain, account.chi_square, account.dof));
+    report_progress(
+        fmt::format("    log odds {:.1f} ({:+.1f} by conditions held out), chi2 {:.0f} of {:.0f}",
+                    r.log_odds, r.heldout_gain, account.chi_square, account.dof));
   }
 
   bool fit_heldout_of(size_t i) {
-    const Account& base = base_.account;
-    Account& account = contest_.accounts[i];
-    if (!base.heldout_study) return true;
+    const ModelFit& base = base_.account;
+    ModelFit& account = contest_.accounts[i];
+    if (!base.heldout_set) return true;
     if (heldout_influences_.empty())
-      heldout_influences_ = influences_of(*base.heldout_study, base.heldout);
+      heldout_influences_ = influences_of(*base.heldout_set, base.heldout);
     const Candidate& candidate = contest_.round.candidates[i].candidate;
-    const auto start = with(candidate, account.fit.shared, *base.heldout_study, base.heldout,
-                            base_.evidence.heldout, heldout_influences_);
-    fit_heldout(account, &start, base_.evidence);
+    const auto start = with_candidate(candidate, account.fit.shared, *base.heldout_set,
+                                      base.heldout, base_.evidence.heldout, heldout_influences_);
+    with_heldout_fit(account, &start, base_.evidence);
     if (!reaches_all(account.heldout, base.heldout) ||
         (candidate.is_switch() && !improves(account.heldout, base.heldout)))
-      fit_heldout(account, nullptr, base_.evidence);
+      with_heldout_fit(account, nullptr, base_.evidence);
     return reaches_all(account.heldout, base.heldout);
   }
 
-  Base& base_;
-  Contest& contest_;
+  NullModel& base_;
+  SelectionRound& contest_;
   const DiscoverOptions& options_;
   std::vector<Candidate> all_;
   std::vector<double> prior_;  // log odds of each before data
   std::vector<Score> scores_;  // best first, as in the round
   std::vector<size_t> refitted_;
-  double gained_ = 0;              // by the best refit, of log evidence
-  const Account* best_ = nullptr;  // of these
+  double gained_ = 0;               // by the best refit, of log evidence
+  const ModelFit* best_ = nullptr;  // of these
   std::vector<Matrix> heldout_influences_;
 };
 
 }  // namespace
 
-Contest contest(Base& base, const std::vector<Matrix>& influences, const Projection& projection,
-                const std::vector<Candidate>& found, const DiscoverOptions& options) {
-  Contest c;
+SelectionRound contest(NullModel& base, const std::vector<Matrix>& influences,
+                       const Projection& projection, const std::vector<Candidate>& found,
+                       const DiscoverOptions& options) {
+  SelectionRound c;
   c.round.chi_square = base.account.chi_square, c.round.dof = base.account.dof;
   Refits refits(base, c, found, options);
   const auto started = std::chrono::steady_clock::now();

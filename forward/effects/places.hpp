@@ -1,7 +1,9 @@
 #pragma once
 // Where in a tongue an effect may be that has a place.
 
-#include "forward/model/build_effects.hpp"
+#include <random>
+
+#include "forward/effects/kind.hpp"
 
 namespace genio {
 
@@ -13,5 +15,8 @@ std::vector<Place> regions(const ModelDescription& description);
 /// genioglossus (GGH), chondroglossus of each side, and the transverse bundles of palatoglossus and
 /// glossopharyngeus (Takemoto 2001; Standring 2016, chapter 31).
 std::vector<Place> muscle_courses(const ModelDescription& description);
+
+/// A random node of the midsagittal line between tip and root [m].
+Vec3 drawn_on_dorsum(const ModelDescription& description, std::mt19937& random);
 
 }  // namespace genio

@@ -1,4 +1,4 @@
-#include "discrepancy/contest/selection.hpp"
+#include "discrepancy/contest/model_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,12 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
   std::map<std::string, double> result;
   for (size_t i = 0; i < c.strengths.size(); ++i) {
     const FreeNumber& n = c.strengths[i];
-    const double least = 0.05 * n.info.typical;  // off the kink of a one-sided one
+    const double least = 0.05 * n.belief.typical;  // off the kink of a one-sided one
     // A straight line may point far beyond where it holds.
-    double off = std::clamp(n.info.off(s.estimate[Eigen::Index(i)]), -farthest * n.info.typical,
-                            farthest * n.info.typical);
+    double off = std::clamp(n.off(s.estimate[Eigen::Index(i)]), -farthest * n.belief.typical,
+                            farthest * n.belief.typical);
     if (std::abs(off) < least) off = n.info.absent < n.info.upper ? least : -least;
-    result[c.effect + "." + n.name] = std::clamp(n.info.at(off), n.info.lower, n.info.upper);
+    result[c.effect + "." + n.name] = std::clamp(n.at(off), n.info.lower, n.info.upper);
   }
   return result;
 }
@@ -31,13 +31,13 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
 /// What a candidate's numbers are believed to be, strong ones by `scale`, with those of `base`.
 SharedPrior believed(SharedPrior base, const Candidate& c, double scale) {
   if (!c.hypothesis) {
-    base.head_pose = HeadPosePrior{scale * c.strengths.front().info.typical,
-                                   scale * c.strengths.back().info.typical};
+    base.head_pose = HeadPosePrior{scale * c.strengths.front().belief.typical,
+                                   scale * c.strengths.back().belief.typical};
   } else {
     const auto add = [&](const std::vector<FreeNumber>& numbers, double by) {
       for (const FreeNumber& n : numbers)
         base.parameters[c.effect + "." + n.name] = {
-            {n.info.absent, by * n.info.typical}, n.info.lower, n.info.upper, n.info.ratio};
+            {n.info.absent, by * n.belief.typical}, n.info.lower, n.info.upper, n.belief.ratio};
     };
     add(c.hypothesis->strengths, scale), add(c.hypothesis->details, 1);
   }
@@ -51,7 +51,7 @@ double scale_of(const Candidate& c, const JointFit& fit) {
   for (const FreeNumber& n : c.strengths)
     for (const SharedEstimate& e : fit.shared)
       if (e.name == c.effect + "." + n.name)
-        scale = std::max(scale, std::abs(n.info.off(e.value)) / n.info.typical);
+        scale = std::max(scale, std::abs(n.off(e.value)) / n.belief.typical);
   return scale;
 }
 
@@ -62,26 +62,26 @@ std::map<std::string, double> values_of(const JointFit& fit) {
 }
 
 /// Fits again while the strengths turn out to be of another scale than was believed.
-void rescale(Account& a, const SharedPrior& base, const Candidate& c, double scale,
-             const Errors& errors, double hopeless) {
+void rescale(ModelFit& a, const SharedPrior& base, const Candidate& c, double scale,
+             const Errors& errors, double give_up_above) {
   for (int tries = 0; tries < most_rescales && a.fit.converged; ++tries) {
     const double now = scale_of(c, a.fit);
     if (now < misjudged * scale && scale < misjudged * now) break;
     scale = now;
     a.shared = believed(base, c, scale);
     FitOptions options{&a.fit.conditions, values_of(a.fit)};
-    options.hopeless = hopeless;
-    a.fit = fit(*a.study, a.shared, &errors, options);
+    options.give_up_above = give_up_above;
+    a.fit = fit(*a.set, a.shared, &errors, options);
   }
 }
 
 /// What no such effect does and this one would; empty: nothing.
-std::string implausible(const Candidate& c, const Account& a) {
-  const Model& m = a.study->model(0);
+std::string implausible(const Candidate& c, const ModelFit& a) {
+  const Model& m = a.set->model(0);
   for (size_t e = 0; e < m.effects.size(); ++e)
-    if (m.effects[e]->name() == c.effect)
-      return m.effects[e]->implausible(
-          effect_parameters(m, a.fit.conditions.front().parameters, int(e)));
+    if (m.effects[e].name() == c.effect)
+      return genio::implausible(c.effect,
+                                effect_parameters(m, a.fit.conditions.front().parameters, int(e)));
   return {};
 }
 
@@ -96,9 +96,9 @@ std::vector<double> log_prior(const std::vector<Candidate>& candidates) {
   return result;
 }
 
-Account refit(const Account& base, const Candidate& candidate, const Score& score,
-              const Evidence& evidence, double hopeless) {
-  Account a;
+ModelFit refit(const ModelFit& base, const Candidate& candidate, const Score& score,
+               const DataErrors& evidence, double give_up_above) {
+  ModelFit a;
   a.description = base.description;
   a.shared = base.shared;
   const bool is_switch = candidate.is_switch();
@@ -106,8 +106,8 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
     a.description = candidate.hypothesis->added_to(std::move(a.description), is_switch);
   if (!is_switch) a.shared = believed(base.shared, candidate, score.scale);
   try {
-    a.study = std::make_shared<Study>(a.description, evidence.observations,
-                                      fitted_conditions(evidence.observations));
+    a.set = std::make_shared<ConditionSet>(a.description, evidence.observations,
+                                           fitted_conditions(evidence.observations));
     std::vector<double> reaches{far_start, near_start};
     if (score.scale > 1) reaches.insert(reaches.begin(), far_start * score.scale);
     for (double farthest : reaches) {
@@ -117,21 +117,20 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
       Vector step(score.signature.cols());
       for (size_t i = 0; i < candidate.strengths.size(); ++i) {
         const FreeNumber& n = candidate.strengths[i];
-        step[Eigen::Index(i)] =
-            n.info.off(options.shared_start.at(candidate.effect + "." + n.name));
+        step[Eigen::Index(i)] = n.off(options.shared_start.at(candidate.effect + "." + n.name));
       }
       const auto start = response(base.fit, evidence.fitted, score.signature * step);
       options.start = &start;
-      options.hopeless = hopeless;
-      a.fit = fit(*a.study, a.shared, &evidence.fitted, options);
+      options.give_up_above = give_up_above;
+      a.fit = fit(*a.set, a.shared, &evidence.fitted, options);
       if (a.fit.u.size() > 0) break;  // else no equilibrium that far
     }
     if (!is_switch) {
-      rescale(a, base.shared, candidate, score.scale, evidence.fitted, hopeless);
+      rescale(a, base.shared, candidate, score.scale, evidence.fitted, give_up_above);
     } else if (!improves(a.fit, base.fit)) {
       FitOptions anew;
-      anew.hopeless = hopeless;
-      if (JointFit f = fit(*a.study, a.shared, &evidence.fitted, anew); f.converged)
+      anew.give_up_above = give_up_above;
+      if (JointFit f = fit(*a.set, a.shared, &evidence.fitted, anew); f.converged)
         a.fit = std::move(f);
     }
     a.message = a.fit.message;
@@ -142,7 +141,7 @@ Account refit(const Account& base, const Candidate& candidate, const Score& scor
   } catch (const InputError& e) {
     a.message = e.what();
   }
-  if (a.fitted()) test_residuals(a, evidence.fitted);
+  if (a.fitted()) with_residual_test(a, evidence.fitted);
   return a;
 }
 
@@ -150,13 +149,13 @@ bool improves(const JointFit& f, const JointFit& other) {
   return f.converged && f.value < other.value;
 }
 
-void test_residuals(Account& a, const Errors& errors) {
+void with_residual_test(ModelFit& a, const Errors& errors) {
   const Projection projection(a.fit, errors.covariance);
   a.chi_square = projection.chi_square(), a.dof = projection.dof();
 }
 
-Explanation explanation_of(const Account& a) {
-  Explanation e{with_fitted(a.description, a.fit), {}};
+PosedModel posed_model_of(const ModelFit& a) {
+  PosedModel e{with_fitted(a.description, a.fit), {}};
   for (const SharedEstimate& s : a.fit.shared) {
     if (s.name == "head_pose.x") e.pose.shift[0] = s.value;
     if (s.name == "head_pose.z") e.pose.shift[1] = s.value;
@@ -178,11 +177,12 @@ ModelDescription with_fitted(ModelDescription d, const JointFit& fit) {
   return d;
 }
 
-void fit_heldout(Account& a, const std::vector<FittedCondition>* start, const Evidence& evidence) {
+void with_heldout_fit(ModelFit& a, const std::vector<FittedCondition>* start,
+                      const DataErrors& evidence) {
   const auto members = heldout_conditions(evidence.observations);
   if (members.empty()) return;
-  a.heldout_study =
-      std::make_shared<Study>(with_fitted(a.description, a.fit), evidence.observations, members);
+  a.heldout_set = std::make_shared<ConditionSet>(with_fitted(a.description, a.fit),
+                                                 evidence.observations, members);
   // A head pose that all data were laid with is no parameter of the model, but as little free.
   SharedPrior shared;
   FitOptions options{start};
@@ -190,7 +190,7 @@ void fit_heldout(Account& a, const std::vector<FittedCondition>* start, const Ev
   for (const SharedEstimate& e : a.fit.shared)
     if (a.shared.head_pose && e.name.starts_with("head_pose")) options.fixed[e.name] = e.value;
   options.shared_start = options.fixed;
-  a.heldout = fit(*a.heldout_study, shared, &evidence.heldout, options);
+  a.heldout = fit(*a.heldout_set, shared, &evidence.heldout, options);
 }
 
 }  // namespace genio

@@ -1,10 +1,10 @@
-#include "forward/effects/tissue/tissue_effect.hpp"
+#include "forward/effects/tissue/tissue_potential.hpp"
 
 #include <limits>
 
 namespace genio {
 
-double TissueEffect::energy(const Positions& x, EffectParameters p) const {
+double TissuePotential::energy(const Positions& x, EffectParameters p) const {
   if (!present(p)) return 0;
   double total = 0;
   BatchShape s;
@@ -16,14 +16,14 @@ double TissueEffect::energy(const Positions& x, EffectParameters p) const {
   return total;
 }
 
-void TissueEffect::add_force(const Positions& x, EffectParameters p, Forces& f) const {
+void TissuePotential::add_force(const Positions& x, EffectParameters p, Forces& f) const {
   if (!present(p)) return;
   BatchShape s;
   for (size_t b = 0; b < batches_.size(); ++b)
     if (touches(b) && deform(batches_[b], x, s)) add_batch_force(batches_[b], s, tissue(b, p), f);
 }
 
-void TissueEffect::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const {
+void TissuePotential::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const {
   if (!present(p)) return;
   BatchShape s;
   for (size_t b = 0; b < batches_.size(); ++b) {
@@ -33,8 +33,8 @@ void TissueEffect::add_stiffness(const Positions& x, EffectParameters p, Stiffne
   }
 }
 
-void TissueEffect::add_step_stiffness(const Positions& x, const LinearStep& led, EffectParameters p,
-                                      Stiffness& k) const {
+void TissuePotential::add_step_stiffness(const Positions& x, const LinearStep& led,
+                                         EffectParameters p, Stiffness& k) const {
   if (!present(p)) return;
   BatchShape s;
   for (size_t b = 0; b < batches_.size(); ++b) {
@@ -46,7 +46,7 @@ void TissueEffect::add_step_stiffness(const Positions& x, const LinearStep& led,
   }
 }
 
-void TissueEffect::add_bulk_modulus(EffectParameters p, Vector& kappa) const {
+void TissuePotential::add_bulk_modulus(EffectParameters p, Vector& kappa) const {
   if (!present(p)) return;
   for (size_t b = 0; b < batches_.size(); ++b) {
     if (!touches(b)) continue;
@@ -55,16 +55,16 @@ void TissueEffect::add_bulk_modulus(EffectParameters p, Vector& kappa) const {
   }
 }
 
-void TissueEffect::add_stiffness_product(const Positions& x, const Vector& v, EffectParameters p,
-                                         Forces& f) const {
+void TissuePotential::add_stiffness_product(const Positions& x, const Vector& v, EffectParameters p,
+                                            Forces& f) const {
   BatchShape s;
   for (size_t b = 0; b < batches_.size(); ++b)
     if (touches(b) && deform(batches_[b], x, s))
       add_batch_stiffness_product(batches_[b], s, tissue(b, p), v, f);
 }
 
-void TissueEffect::add_force_derivative(const Positions& x, EffectParameters p, int k,
-                                        Forces& df) const {
+void TissuePotential::add_force_derivative(const Positions& x, EffectParameters p, int k,
+                                           Forces& df) const {
   BatchShape s;
   for (size_t b = 0; b < batches_.size(); ++b)
     if (touches(b) && deform(batches_[b], x, s))

@@ -1,0 +1,100 @@
+#include "forward/effects/surroundings/contact_kinds.hpp"
+
+#include <fmt/format.h>
+
+#include "forward/effects/bones/jaw_opening.hpp"
+#include "forward/effects/surroundings/contact.hpp"
+#include "forward/effects/surroundings/contact_damping.hpp"
+#include "forward/geometry/surface_field.hpp"
+#include "forward/tissue/tongue_faces.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double deepest_overlap = 2e-3;  // at rest [m]
+
+/// With the surface of a bone ("palate").
+Effect contact(Settings& s, const Anatomy& a, const std::string& bone,
+               const std::optional<TriangleSurface>& surface, std::optional<Vec3> hinge = {}) {
+  const ModelDescription& d = a.description;
+  const std::string name = bone + "_contact";
+  if (!surface)
+    throw InputError(
+        fmt::format("{}: [effect.{}] needs a surface '{}' in [surfaces]", a.source, name, bone));
+  const double stiffness = s.take("stiffness", 2e8), damping = s.take("damping", 0);
+  const auto field = field_about(*surface, d.mesh);
+  const auto area = nodal_areas(d.mesh, outer_faces(d.mesh, a.supports));
+  std::vector<ContactNode> nodes;
+  for (size_t n = 0; n < area.size(); ++n) {
+    const double gap = field->value(d.mesh.nodes[n]);
+    // Far behind the surface: another side of it (the floor of the mouth lies behind the pharynx).
+    if (area[n] > 0 && moves_freely(a.supports[n]) && gap > -deepest_overlap)
+      nodes.push_back({int(n), area[n], std::min(0.0, gap)});
+  }
+  const auto placed =
+      std::make_shared<const ContactSurface>(ContactSurface{field, std::move(nodes), hinge});
+  const auto touch = std::make_shared<Contact>(name, placed, stiffness);
+  return {.potential = touch,
+          .dissipation = std::make_shared<ContactDamping>(name, placed, damping),
+          .contact = touch};
+}
+
+/// A bone that touches; the nearer it lies the more it does. Its place is known to the model.
+EffectChange nearer_bone(const std::string& name,
+                         std::optional<TriangleSurface> ModelDescription::*bone,
+                         const Vec3& nearer) {
+  const auto moved = [=](ModelDescription d, double s) {
+    for (Vec3& v : (d.*bone)->vertices) v += 1e-3 * s * nearer;
+    return d;
+  };
+  return {.effect = name,
+          .first = 4,
+          .most = 12,
+          .truth =
+              [=](ModelDescription d, double s) {
+                d = moved(std::move(d), s);
+                d.effects[name] = {{"stiffness", 2e8}};
+                return d;
+              },
+          .shipped =
+              [=](ModelDescription d, double s) {
+                d = moved(std::move(d), s);
+                d.effects.erase(name);
+                return d;
+              },
+          .parameters = [](double) { return EffectTable{}; }};
+}
+
+Belief there_or_not() { return {.parameters = {{.parameter = "stiffness", .typical = 2e8}}}; }
+
+}  // namespace
+
+EffectKind palate_contact_kind() {
+  return {.name = "palate_contact",
+          .make = [](Settings& s,
+                     const Anatomy& a) { return contact(s, a, "palate", a.description.palate); },
+          .external = true,
+          .belief = there_or_not(),
+          .sample = {{"stiffness", 1e7}, {"damping", 8}},
+          .hidden =
+              [](const ChangeDraw&) {
+                return nearer_bone("palate_contact", &ModelDescription::palate, {0, 0, -1});
+              }};
+}
+
+EffectKind jaw_contact_kind() {
+  return {.name = "jaw_contact",
+          .make =
+              [](Settings& s, const Anatomy& a) {
+                return contact(s, a, "jaw", a.description.jaw, opening_hinge(a));
+              },
+          .external = true,
+          .belief = there_or_not(),
+          .sample = {{"stiffness", 2e7}, {"damping", 5}},
+          .hidden =
+              [](const ChangeDraw&) {
+                return nearer_bone("jaw_contact", &ModelDescription::jaw, {1, 0, 0});
+              }};
+}
+
+}  // namespace genio
