@@ -1,43 +1,22 @@
-// genio-make-example MODEL FILE: writes the example shape, the midsagittal line of the model under
-// known forces with 0.3 mm of noise from a fixed seed. data/examples/ holds its output.
-#include <fmt/format.h>
-#include <fmt/os.h>
-
+// genio-make-example MODEL FOLDER: writes the example files from fixed seeds. data/examples/ holds
+// its output, and data/examples/README.md states the truth behind each file.
 #include <cstdio>
-#include <random>
+#include <exception>
+#include <string>
 
-#include "forward/model/build_model.hpp"
-#include "forward/model/model_file.hpp"
-#include "forward/statics/equilibrium.hpp"
-#include "inverse/target/target.hpp"
+#include "data/generator/example_files.hpp"
 
 int main(int argc, char** argv) {
   using namespace genio;
-  if (argc != 3) return std::fprintf(stderr, "usage: genio-make-example MODEL FILE\n"), 2;
+  if (argc != 3) return std::fprintf(stderr, "usage: genio-make-example MODEL FOLDER\n"), 2;
   try {
-    const Model model = read_model(argv[1]);
-    Parameters p = default_parameters(model);
-    set_command(model, "GGP", 2.5, p);
-    set_command(model, "SL", 0.4, p);
-    set_command(model, "TRANS", 1.0, p);
-    Workspace ws(model);
-    const auto e = solve_equilibrium(model, p, model.rest, ws);
-    if (!e) throw std::runtime_error(e.message);
-    std::mt19937 bits(20261122);
-    auto out = fmt::output_file(argv[2]);
-    out.print("frame,point,x_mm,z_mm,sigma_mm,label\n");
-    int number = 0;
-    for (const Vec2& q : TongueLine(model).sample(e.x, 36)) {
-      // Sum of uniforms: the standard's normal distribution differs between libraries.
-      const auto normal = [&] {
-        double sum = -6;
-        for (int i = 0; i < 12; ++i) sum += double(bits()) / 4294967296.0;
-        return sum;
-      };
-      const double dx = 0.3 * normal(), dz = 0.3 * normal();
-      out.print("1,{},{:.3f},{:.3f},0.3,GGP 2.5 N with TRANS 1 N and SL 0.4 N\n", ++number,
-                1e3 * q[0] + dx, 1e3 * q[1] + dz);
-    }
+    const ModelDescription tongue = read_description(argv[1]);
+    const std::string folder = argv[2];
+    write_shape(tongue, folder);
+    write_recording(tongue, folder + "/recording");
+    write_word(tongue, folder + "/word");
+    write_prior(folder + "/prior");
+    write_observations(tongue, folder + "/discover");
   } catch (const std::exception& e) {
     std::fprintf(stderr, "genio-make-example: %s\n", e.what());
     return 1;

@@ -76,9 +76,10 @@ void summarise(MotionProblem& problem, LocalProblem& local, const Vector& u,
   for (size_t k = 0; k < answer.frames.size(); ++k) {
     const Residuals& r = answer.frames[k].residuals;
     const auto count = r.values.size();
-    const double way = way_from_rest(problem.comparisons()[k], answer.frames[k].shape);
+    const double displacement =
+        displacement_from_rest(problem.comparisons()[k], answer.frames[k].shape);
     const auto erring = [&](double part) {
-      return model_error_covariance(r, std::max(error.least, part * way), error.length);
+      return model_error_covariance(r, std::max(error.least, part * displacement), error.length);
     };
     wide.block(first, first, count, count) = erring(error.part);
     left.block(first, first, count, count) = erring(error.left);

@@ -1,4 +1,3 @@
-#include "inverse/posterior/box_integral.hpp"
 #include "inverse/shape/summary.hpp"
 
 #include <fmt/format.h>
@@ -6,6 +5,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "inverse/posterior/box_integral.hpp"
 
 namespace genio {
 namespace {
@@ -19,7 +20,7 @@ std::string list(const std::vector<std::string>& names) {
 
 }  // namespace
 
-double way_from_rest(const Comparison& comparison, const Positions& x) {
+double displacement_from_rest(const Comparison& comparison, const Positions& x) {
   const auto& nodes = comparison.line().nodes();
   double sum = 0;
   for (int a : nodes)
@@ -40,9 +41,9 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
   const Vector& z = optimum.activations;
   const LocalPosterior narrow = local_posterior(objective, optimum);
   const auto& which = narrow.which;
-  const double way = way_from_rest(comparison, optimum.equilibrium.x);
+  const double displacement = displacement_from_rest(comparison, optimum.equilibrium.x);
   const auto erring = [&](double part) {
-    return model_error_covariance(optimum.residuals, std::max(error.least, part * way),
+    return model_error_covariance(optimum.residuals, std::max(error.least, part * displacement),
                                   error.length);
   };
   const LocalPosterior posterior =

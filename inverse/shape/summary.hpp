@@ -11,7 +11,7 @@ LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint&
 
 /// How far the shape's midsagittal line lies from rest, root mean square [m]: what the model's
 /// error is a part of.
-double way_from_rest(const Comparison& comparison, const Positions& x);
+double displacement_from_rest(const Comparison& comparison, const Positions& x);
 
 /// Fills estimates, unidentified groups, chi2, verdict and evidence of `answer` from the optimum's
 /// derivatives.

@@ -1,4 +1,4 @@
-// Different roads lead to the same optimum.
+// Different routes lead to the same optimum.
 
 #include <gtest/gtest.h>
 
