@@ -8,9 +8,9 @@
 #include <random>
 
 #include "bench/figures/discover_table.hpp"
-#include "runs/line_log.hpp"
-#include "runs/progress_line.hpp"
-#include "runs/workers.hpp"
+#include "runs/process/progress_line.hpp"
+#include "runs/process/workers.hpp"
+#include "runs/results/line_log.hpp"
 
 namespace genio::cli {
 

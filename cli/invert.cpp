@@ -15,11 +15,11 @@
 #include "report/answer_report.hpp"
 #include "report/motion_report.hpp"
 #include "report/run_summary.hpp"
-#include "runs/frame_by_frame.hpp"
-#include "runs/movement_run.hpp"
-#include "runs/progress_line.hpp"
-#include "runs/result_log.hpp"
-#include "runs/smooth_run.hpp"
+#include "runs/frames/frame_by_frame.hpp"
+#include "runs/frames/movement_run.hpp"
+#include "runs/frames/smooth_run.hpp"
+#include "runs/process/progress_line.hpp"
+#include "runs/results/result_log.hpp"
 
 namespace genio::cli {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 #include "cli/options.hpp"
-#include "runs/measured.hpp"
+#include "runs/frames/measured.hpp"
 
 namespace genio::cli {
 

@@ -6,7 +6,8 @@ namespace genio::cli {
 namespace {
 
 template <class T>
-void declare(CLI::App& app, const char* name, T& value, const char* help, const Rules& rules) {
+void declare(CLI::App& app, const char* name, T& value, const std::string& help,
+             const Rules& rules) {
   CLI::Option* option = app.add_option(name, value, help);
   if (rules.required) option->required();
   if (rules.range) option->check(CLI::Range(rules.range->first, rules.range->second));
@@ -18,37 +19,38 @@ void declare(CLI::App& app, const char* name, T& value, const char* help, const 
 
 }  // namespace
 
-void Options::add(const char* name, std::string& value, const char* help, const Rules& rules) {
-  declare(*app_, name, value, help, rules);
-}
-
-void Options::add(const char* name, double& value, const char* help, const Rules& rules) {
-  declare(*app_, name, value, help, rules);
-}
-
-void Options::add(const char* name, std::optional<double>& value, const char* help,
+void Options::add(const char* name, std::string& value, const std::string& help,
                   const Rules& rules) {
   declare(*app_, name, value, help, rules);
 }
 
-void Options::add(const char* name, int& value, const char* help, const Rules& rules) {
+void Options::add(const char* name, double& value, const std::string& help, const Rules& rules) {
   declare(*app_, name, value, help, rules);
 }
 
-void Options::add(const char* name, unsigned& value, const char* help, const Rules& rules) {
-  declare(*app_, name, value, help, rules);
-}
-
-void Options::add(const char* name, std::vector<std::string>& value, const char* help,
+void Options::add(const char* name, std::optional<double>& value, const std::string& help,
                   const Rules& rules) {
   declare(*app_, name, value, help, rules);
 }
 
-void Options::flag(const char* name, bool& value, const char* help) {
+void Options::add(const char* name, int& value, const std::string& help, const Rules& rules) {
+  declare(*app_, name, value, help, rules);
+}
+
+void Options::add(const char* name, unsigned& value, const std::string& help, const Rules& rules) {
+  declare(*app_, name, value, help, rules);
+}
+
+void Options::add(const char* name, std::vector<std::string>& value, const std::string& help,
+                  const Rules& rules) {
+  declare(*app_, name, value, help, rules);
+}
+
+void Options::flag(const char* name, bool& value, const std::string& help) {
   app_->add_flag(name, value, help);
 }
 
-void Options::footer(const char* text) { app_->footer(text); }
+void Options::footer(const std::string& text) { app_->footer(text); }
 
 Options Options::subcommand(const char* name, const char* about) {
   CLI::App* sub = app_->add_subcommand(name, about);

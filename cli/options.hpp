@@ -30,17 +30,17 @@ class Options {
   explicit Options(CLI::App& app) : app_(&app) {}
 
   /// "--name", or "name" for a value that stands by itself.
-  void add(const char* name, std::string& value, const char* help, const Rules& rules = {});
-  void add(const char* name, double& value, const char* help, const Rules& rules = {});
-  void add(const char* name, std::optional<double>& value, const char* help,
+  void add(const char* name, std::string& value, const std::string& help, const Rules& rules = {});
+  void add(const char* name, double& value, const std::string& help, const Rules& rules = {});
+  void add(const char* name, std::optional<double>& value, const std::string& help,
            const Rules& rules = {});
-  void add(const char* name, int& value, const char* help, const Rules& rules = {});
-  void add(const char* name, unsigned& value, const char* help, const Rules& rules = {});
-  void add(const char* name, std::vector<std::string>& value, const char* help,
+  void add(const char* name, int& value, const std::string& help, const Rules& rules = {});
+  void add(const char* name, unsigned& value, const std::string& help, const Rules& rules = {});
+  void add(const char* name, std::vector<std::string>& value, const std::string& help,
            const Rules& rules = {});
-  void flag(const char* name, bool& value, const char* help);
+  void flag(const char* name, bool& value, const std::string& help);
   /// What the help ends with.
-  void footer(const char* text);
+  void footer(const std::string& text);
 
   /// A command of its own that shares these options.
   Options subcommand(const char* name, const char* about);

@@ -10,8 +10,8 @@
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "report/answer_report.hpp"
-#include "runs/answer_record.hpp"
-#include "runs/frames.hpp"
+#include "runs/frames/frame.hpp"
+#include "runs/results/answer_record.hpp"
 #include "server/client.hpp"
 
 namespace genio::cli {

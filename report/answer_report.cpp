@@ -7,7 +7,7 @@
 #include "forward/base/text_file.hpp"
 #include "inverse/target/tongue_line.hpp"
 #include "report/svg.hpp"
-#include "runs/answer_record.hpp"
+#include "runs/results/answer_record.hpp"
 
 namespace genio {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "runs/answer_view.hpp"
+#include "runs/results/answer_view.hpp"
 
 namespace genio {
 

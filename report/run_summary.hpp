@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "runs/answer_record.hpp"
+#include "runs/results/answer_record.hpp"
 
 namespace genio {
 

@@ -1,6 +1,6 @@
 // Runs of frames on the tongue itself: what is known of the frame before is used, nothing is lost.
 
-#include "runs/frame_by_frame.hpp"
+#include "runs/frames/frame_by_frame.hpp"
 
 #include <gtest/gtest.h>
 

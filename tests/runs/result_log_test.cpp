@@ -1,4 +1,4 @@
-#include "runs/result_log.hpp"
+#include "runs/results/result_log.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
-#include "runs/frames.hpp"
+#include "runs/frames/frame.hpp"
 #include "tests/runs/temporary_folder.hpp"
 
 namespace genio {

@@ -1,11 +1,11 @@
-#include "runs/workers.hpp"
+#include "runs/process/workers.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <map>
 
-#include "runs/frame_by_frame.hpp"
+#include "runs/frames/frame_by_frame.hpp"
 
 namespace genio {
 namespace {

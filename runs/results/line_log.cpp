@@ -1,4 +1,4 @@
-#include "runs/line_log.hpp"
+#include "runs/results/line_log.hpp"
 
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"

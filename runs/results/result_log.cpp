@@ -1,4 +1,4 @@
-#include "runs/result_log.hpp"
+#include "runs/results/result_log.hpp"
 
 #include <fmt/format.h>
 

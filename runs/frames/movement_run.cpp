@@ -1,4 +1,4 @@
-#include "runs/movement_run.hpp"
+#include "runs/frames/movement_run.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "runs/checkpoint.hpp"
-#include "runs/frames.hpp"
+#include "runs/frames/frame.hpp"
+#include "runs/results/checkpoint.hpp"
 
 namespace genio {
 

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "runs/answer_record.hpp"
-#include "runs/line_log.hpp"
+#include "runs/results/answer_record.hpp"
+#include "runs/results/line_log.hpp"
 
 namespace genio {
 

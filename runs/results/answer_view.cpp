@@ -1,4 +1,4 @@
-#include "runs/answer_view.hpp"
+#include "runs/results/answer_view.hpp"
 
 #include "inverse/target/tongue_line.hpp"
 

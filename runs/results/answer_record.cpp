@@ -1,4 +1,4 @@
-#include "runs/answer_record.hpp"
+#include "runs/results/answer_record.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -7,7 +7,7 @@
 
 #include "inverse/recording/contour_file.hpp"
 #include "inverse/search/multi_start.hpp"
-#include "runs/answer_record.hpp"
+#include "runs/results/answer_record.hpp"
 
 namespace genio {
 

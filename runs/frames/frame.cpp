@@ -1,4 +1,4 @@
-#include "runs/frames.hpp"
+#include "runs/frames/frame.hpp"
 
 #include <fmt/format.h>
 

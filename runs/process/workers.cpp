@@ -1,4 +1,4 @@
-#include "runs/workers.hpp"
+#include "runs/process/workers.hpp"
 
 #include <fmt/format.h>
 #include <poll.h>

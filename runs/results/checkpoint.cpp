@@ -1,4 +1,4 @@
-#include "runs/checkpoint.hpp"
+#include "runs/results/checkpoint.hpp"
 
 #include <fstream>
 #include <nlohmann/json.hpp>

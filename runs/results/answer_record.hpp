@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "runs/answer_view.hpp"
+#include "runs/results/answer_view.hpp"
 
 namespace genio {
 

@@ -1,4 +1,4 @@
-#include "runs/smooth_run.hpp"
+#include "runs/frames/smooth_run.hpp"
 
 #include "inverse/sequence/sequence.hpp"
 

@@ -1,4 +1,4 @@
-#include "runs/frame_by_frame.hpp"
+#include "runs/frames/frame_by_frame.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "runs/progress_line.hpp"
+#include "runs/process/progress_line.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "inverse/sequence/motion_inversion.hpp"
-#include "runs/checkpoint.hpp"
-#include "runs/smooth_run.hpp"
+#include "runs/frames/smooth_run.hpp"
+#include "runs/results/checkpoint.hpp"
 
 namespace genio {
 

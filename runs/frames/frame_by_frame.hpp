@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "runs/frames.hpp"
-#include "runs/workers.hpp"
+#include "runs/frames/frame.hpp"
+#include "runs/process/workers.hpp"
 
 namespace genio {
 

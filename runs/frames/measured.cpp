@@ -1,4 +1,4 @@
-#include "runs/measured.hpp"
+#include "runs/frames/measured.hpp"
 
 #include <fmt/format.h>
 
