@@ -37,7 +37,7 @@ endfunction()
 # With CMAKE_UNITY_BUILD=ON (presets release and ci) the sources of a folder are compiled as one
 # file, which instantiates their templates once: genio_grouped(TARGET [SINGLE_FOLDER ...]). So names
 # in the anonymous namespaces of one folder must differ; the compiler says where they do not. Folders
-# whose files are alike by design, as readers of formats, are named and compiled file by file.
+# whose files are alike by design, as effects and readers of formats, are named and compiled file by file.
 function(genio_grouped target)
   get_target_property(sources ${target} SOURCES)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
@@ -45,7 +45,7 @@ function(genio_grouped target)
     get_filename_component(folder ${source} DIRECTORY)
     file(RELATIVE_PATH sub ${CMAKE_CURRENT_SOURCE_DIR} ${folder})
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
-    if(sub IN_LIST ARGN)
+    if(sub AND sub IN_LIST ARGN)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     else()
       string(MAKE_C_IDENTIFIER "${folder}" group)
