@@ -13,8 +13,8 @@
 namespace genio {
 namespace {
 
-constexpr double invisible = 1e-3;    // whitened change at typical strength
-constexpr double power = 0.9;  // of detection
+constexpr double invisible = 1e-3;  // whitened change at typical strength
+constexpr double power = 0.9;       // of detection
 constexpr double largest_scale = 64;
 
 FreeNumber pose_number(const char* name, const char* unit, double typical) {
@@ -217,7 +217,8 @@ std::vector<Score> score(const std::vector<Candidate>& candidates, const Conditi
       s.direction = g * (step.isZero(0) ? Vector(Vector::Ones(count)) : step);
       s.direction.normalize();
       const double sides = side != 0 ? 1 : 2;
-      const double z = normal_quantile(level / sides / double(candidates.size())) + normal_quantile(1 - power);
+      const double z =
+          normal_quantile(level / sides / double(candidates.size())) + normal_quantile(1 - power);
       s.detectable = z / std::sqrt(information.trace() / double(count));
     }
     result.push_back(std::move(s));

@@ -26,10 +26,11 @@ TEST(Registration, BringsAMovedPalateBack) {
 }
 
 TEST(Registration, NeedsPalateAndTrace) {
-  Model m = read_model(test::generic_model());
+  const Model m = read_model(test::generic_model());
   EXPECT_THROW(register_by_palate(m, {Vec2(0, 0)}, {}), InputError);
-  m.palate.reset();
-  EXPECT_THROW(register_by_palate(m, std::vector<Vec2>(10, Vec2(0, 0)), {}), InputError);
+  ModelParts parts = m.parts();
+  parts.palate.reset();
+  EXPECT_THROW(register_by_palate(Model(parts), std::vector<Vec2>(10, Vec2(0, 0)), {}), InputError);
 }
 
 }  // namespace

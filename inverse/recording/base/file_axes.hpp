@@ -1,9 +1,14 @@
 #pragma once
 // From a file's units and axes to metres with x backwards and z up.
 
+#include <limits>
+
 #include "inverse/recording/base/contours.hpp"
 
 namespace genio {
+
+/// A coordinate that the file does not give, as that across a midsagittal plane.
+inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 /// What a format says of its axes; empty where it says nothing.
 struct FileAxes {

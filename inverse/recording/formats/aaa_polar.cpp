@@ -66,10 +66,7 @@ RawContours read_aaa_polar(const std::string& path) {
                                radius, angle));
       if (std::abs(a) > 2 * std::numbers::pi)
         lines.fail(fmt::format("knot {}: angle {}; expected radians", k, a));
-      frame.points.push_back(
-          {{r * std::sin(a), not_given, r * std::cos(a)},
-           0,
-           "curve"});
+      frame.points.push_back({{r * std::sin(a), not_given, r * std::cos(a)}, 0, "curve"});
     }
     if (frame.points.empty()) frame.note = "the frame is empty (no knot has a value)";
     raw.file.frames.push_back(std::move(frame));

@@ -10,8 +10,6 @@
 namespace genio {
 namespace {
 
-constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
-
 /// Fields of a row by its separator, an empty one at the end dropped: tab or comma.
 std::vector<std::string> fields_of(const std::string& line, char separator) {
   auto fields = split_fields(line, separator);

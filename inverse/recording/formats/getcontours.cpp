@@ -11,8 +11,6 @@
 namespace genio {
 namespace {
 
-constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
-
 /// Where the numbers of a row stand. Long tables have one knot a row, wide ones all of a frame.
 struct Layout {
   size_t frame = 0, time = 0, note = 0;
