@@ -5,14 +5,14 @@
 namespace genio::cli {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-void add_shape(json& j, const StaticsResult::Shape& shape) {
+void add_shape(Json& j, const StaticsResult::Shape& shape) {
   j["volume_change_percent"] = shape.volume_change_percent;
   j["max_penetration_mm"] = shape.max_penetration_mm;
   j["energy_J"] = shape.energy_J;
   for (const LandmarkShift& l : shape.landmarks) {
-    json& shift = j["landmarks"][l.name];
+    Json& shift = j["landmarks"][l.name];
     shift["dx_mm"] = l.mm[0], shift["dy_mm"] = l.mm[1], shift["dz_mm"] = l.mm[2];
   }
 }
@@ -20,14 +20,14 @@ void add_shape(json& j, const StaticsResult::Shape& shape) {
 }  // namespace
 
 std::string info_json(const Model& m, double smallest_corner_jacobian_ratio) {
-  json j;
+  Json j;
   j["name"] = m.name;
   j["nodes"] = m.mesh.nodes.size(), j["elements"] = m.mesh.elements.size();
   j["volume_cm3"] = 1e6 * mesh_volume(m.mesh, m.rest);
   j["min_corner_jacobian_ratio"] = smallest_corner_jacobian_ratio;
   for (const auto& muscle : m.muscles) j["muscles"][muscle.name]["max_force_N"] = muscle.max_force;
   for (const auto& p : m.parameters) {
-    json& parameter = j["effects"][p.name.effect][p.name.key];
+    Json& parameter = j["effects"][p.name.effect][p.name.key];
     parameter["value"] = p.info.value, parameter["unit"] = p.info.unit;
     parameter["lower"] = p.info.lower, parameter["upper"] = p.info.upper;
   }
@@ -35,7 +35,7 @@ std::string info_json(const Model& m, double smallest_corner_jacobian_ratio) {
 }
 
 std::string statics_json(const StaticsResult& r) {
-  json j;
+  Json j;
   j["status"] = r.shape ? "converged" : "failed", j["message"] = r.message;
   j["newton_iterations"] = r.newton_iterations, j["factorizations"] = r.factorizations;
   j["wall_s"] = r.wall_s;
@@ -44,7 +44,7 @@ std::string statics_json(const StaticsResult& r) {
 }
 
 std::string motion_json(const MotionResult& r) {
-  json j;
+  Json j;
   j["status"] = r.end ? "converged" : "failed", j["message"] = r.message;
   j["steps"] = r.steps, j["rejected_steps"] = r.rejected_steps;
   j["simulated_s"] = r.simulated_s;
@@ -61,7 +61,7 @@ std::string motion_json(const MotionResult& r) {
 }
 
 std::string status_json(const server_status_t& s, int indent) {
-  json j;
+  Json j;
   j["version"] = s.version, j["model"] = s.model;
   j["queued"] = s.queued, j["running"] = s.running;
   j["received"] = s.received, j["replied"] = s.replied, j["refused"] = s.refused;

@@ -13,29 +13,29 @@ namespace genio {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using Json = nlohmann::json;
 
 struct ToJson {
-  json operator()(std::monostate) const { return nullptr; }
+  Json operator()(std::monostate) const { return nullptr; }
   template <class T>
-  json operator()(const T& value) const {
+  Json operator()(const T& value) const {
     return value;
   }
 };
 
-json to_json(const Question& asked) {
-  json result = json::object();
+Json to_json(const Question& asked) {
+  Json result = Json::object();
   for (const auto& [name, value] : asked) result[name] = std::visit(ToJson(), value);
   return result;
 }
 
 /// Throws InputError naming the first option in which the run of `path` differs from what is asked.
-void check_same_question(const std::string& folder, const std::string& path, const json& asked) {
-  const json before = json::parse(std::ifstream(path), nullptr, false);
+void check_same_question(const std::string& folder, const std::string& path, const Json& asked) {
+  const Json before = Json::parse(std::ifstream(path), nullptr, false);
   if (!before.is_object())
     throw InputError(path + ": is damaged; name another --out, or remove the folder");
   for (const auto& [key, value] : asked.items())
-    if (const json earlier = before.value(key, json()); earlier != value)
+    if (const Json earlier = before.value(key, Json()); earlier != value)
       throw InputError(fmt::format("--resume: {} was made with {} = {}, not {}", folder, key,
                                    earlier.dump(), value.dump()));
 }
@@ -50,7 +50,7 @@ ResultLog::ResultLog(const std::string& folder, const Question& question, bool r
   if (fs::exists(path) && !resume)
     throw InputError(fmt::format(
         "--out {}: holds results already; --resume takes them up, or name another folder", folder));
-  const json asked = to_json(question);
+  const Json asked = to_json(question);
   if (resume && fs::exists(run)) check_same_question(folder, run, asked);
   write_text(run, asked.dump(2) + "\n");
   lines_.emplace(path, [&](const std::string& line) {
