@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "bench/experiments/seed_suite.hpp"
 #include "cli/motion.hpp"
+#include "cli/run_bench.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "report/motion_report.hpp"
@@ -13,19 +13,12 @@
 namespace genio::cli {
 namespace {
 
-/// Published results on this tongue.
+/// Published results on this tongue: a benchmark's work.
 int run_suite(const ForwardOptions& o) {
-  const auto result = seed_suite(read_description(o.model), o.model, o.out,
-                                 [](const std::string& line) { fmt::print(stderr, "{}\n", line); });
-  if (o.json) {
-    fmt::print("{}\n", result.dump());
-  } else {
-    const auto& edges = result["styloglossus_edges"];
-    for (const char* how : {"concentrated", "distributed"})
-      fmt::print("STY, {} forces: edges of the surface up to {:.1f} deg sharper than at rest\n",
-                 how, edges[how].value("largest_deg", std::nan("")));
-  }
-  return done;
+  std::vector<std::string> arguments = {o.suite, "--model", o.model};
+  if (!o.out.empty()) arguments.insert(arguments.end(), {"--out", o.out});
+  if (o.json) arguments.push_back("--json");
+  run_bench(arguments);
 }
 
 int run(const ForwardOptions& o) {

@@ -1,14 +1,17 @@
-#include "server/service.hpp"
+#include "bench/figures/service.hpp"
 
 #include <fmt/format.h>
 
 #include <atomic>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bench/figures/benchmarks.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "server/client.hpp"
 #include "server/hub.hpp"
+#include "server/service.hpp"
 
 namespace genio::bench {
 namespace {
@@ -19,9 +22,8 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-}  // namespace
-
-Json service(const Model& m) {
+Json run_service(const BenchOptions& o, const Progress&) {
+  const Model m = read_model(o.model);
   const Hub hub(0);
   ServiceOptions options;
   options.url = fmt::format("tcpq://127.0.0.1:{}", hub.port());
@@ -57,6 +59,14 @@ Json service(const Model& m) {
           {"replies", replies},
           {"overhead_ms_median", overhead[overhead.size() / 2]},
           {"overhead_ms_p99", overhead.back()}};
+}
+
+}  // namespace
+
+Benchmark service_bench() {
+  return {.name = "service",
+          .about = "Round trips over LCM on 127.0.0.1 beside the bare computation",
+          .run = run_service};
 }
 
 }  // namespace genio::bench
