@@ -81,7 +81,10 @@ class Tally {
 
 std::string joined_effects(const Json& all) {
   std::string joined;
-  for (const Json& e : all) joined += (joined.empty() ? "" : "+") + e["effect"].get<std::string>();
+  for (const Json& e : all) {
+    if (!joined.empty()) joined += '+';
+    joined += e["effect"].get<std::string>();
+  }
   return joined;
 }
 

@@ -12,8 +12,6 @@
 namespace genio::bench {
 namespace {
 
-namespace {
-
 Json run_gesture(const BenchOptions& o, const Progress& progress) {
   const Model m = read_model(o.model);
   using Forces = std::vector<std::pair<const char*, double>>;
