@@ -7,11 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/experiments/seed_suite.hpp"
 #include "cli/changed_model.hpp"
 #include "cli/landmarks.hpp"
 #include "cli/motion.hpp"
 #include "cli/result_json.hpp"
+#include "cli/run_bench.hpp"
 #include "cli/support.hpp"
 #include "forward/base/elapsed.hpp"
 #include "forward/model/model_file.hpp"
@@ -28,18 +28,12 @@ struct ForwardOptions {
   bool small = false, dynamic = false, json = false;
 };
 
-/// Published results on this tongue.
+/// Published results on this tongue: a benchmark's work.
 int run_suite(const ForwardOptions& o) {
-  const auto result = seed_suite(read_description(o.model), o.model, o.out, print_line);
-  if (o.json) {
-    fmt::print("{}\n", result.dump());
-  } else {
-    const auto& edges = result["styloglossus_edges"];
-    for (const char* how : {"concentrated", "distributed"})
-      fmt::print("STY, {} forces: edges of the surface up to {:.1f} deg sharper than at rest\n",
-                 how, edges[how].value("largest_deg", std::nan("")));
-  }
-  return done;
+  std::vector<std::string> arguments = {o.suite, "--model", o.model};
+  if (!o.out.empty()) arguments.insert(arguments.end(), {"--out", o.out});
+  if (o.json) arguments.push_back("--json");
+  run_bench(arguments);
 }
 
 void print_statics(const StaticsResult& r) {

@@ -50,6 +50,13 @@ void Options::flag(const char* name, bool& value, const std::string& help) {
   app_->add_flag(name, value, help);
 }
 
+void Options::take_all() {
+  app_->prefix_command();
+  app_->set_help_flag();
+}
+
+std::vector<std::string> Options::rest() const { return app_->remaining(); }
+
 void Options::footer(const std::string& text) { app_->footer(text); }
 
 Options Options::subcommand(const char* name, const char* about) {

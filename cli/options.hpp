@@ -39,6 +39,9 @@ class Options {
   void add(const char* name, std::vector<std::string>& value, const std::string& help,
            const Rules& rules = {});
   void flag(const char* name, bool& value, const std::string& help);
+  /// Takes all that follows as it stands, --help too: see rest().
+  void take_all();
+  std::vector<std::string> rest() const;
   /// What the help ends with.
   void footer(const std::string& text);
 

@@ -1,6 +1,8 @@
 # `cmake --install`: program, libraries, headers, data, and a package for find_package(genio).
 include(CMakePackageConfigHelpers)
 install(TARGETS genio RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# Not built by ./run; `genio bench` says what to do where it is missing.
+install(TARGETS genio-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
 install(TARGETS genio_messages EXPORT genioTargets)
 install(EXPORT genioTargets NAMESPACE genio:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/genio)
 install(DIRECTORY data/generic DESTINATION ${CMAKE_INSTALL_DATADIR}/genio)

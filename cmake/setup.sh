@@ -1,4 +1,4 @@
-# Sourced by ./run and ./check: installs what is missing and builds the preset named in $1.
+# Sourced by ./run and ./check: installs what is missing and builds.
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -16,9 +16,18 @@ install_missing() {
   DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
+# About `seconds` of processor time from scratch, spread over what processors there are.
+say_how_long() {
+  local what=$1 seconds=$2
+  echo "building $what: about $(( (seconds / $(nproc) + 59) / 60 )) min on $(nproc) processors" \
+       "from scratch, less where something is built already" >&2
+}
+
+# build PRESET SECONDS [TARGET...]: the targets, or everything; SECONDS: see say_how_long().
 build() {
-  local preset=$1; shift
+  local preset=$1 seconds=$2; shift 2
   install_missing
-  [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" "$@" >&2
-  cmake --build "build/$preset" >&2
+  [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >&2
+  say_how_long "${*:-the program, its tests and benchmarks}" "$seconds"
+  cmake --build "build/$preset" ${1:+--target "$@"} >&2
 }

@@ -106,7 +106,7 @@ std::string patches_part(const Discovery& d, const Observations& o) {
 
 std::string discovery_page(const Discovery& d, const Observations& o, const std::string& title) {
   std::string s = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>\n"
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/><title>{0}</title>\n"
       "<style>body{{font-family:sans-serif;max-width:60em;margin:2em auto;color:#222}}"
       "table{{border-collapse:collapse}}td,th{{border:1px solid #ccc;padding:.3em .7em;"
       "text-align:left}}svg{{max-width:100%;height:auto}}</style></head><body>\n<h1>{0}</h1>\n"

@@ -102,8 +102,9 @@ void write_png(const std::string& path, const std::string& svg, double scale) {
   cairo_surface_destroy(surface);
   g_object_unref(handle);
   g_clear_error(&error);
-  if (!drawn || written != CAIRO_STATUS_SUCCESS)
-    throw std::runtime_error(path + ": " + cairo_status_to_string(written));
+  if (!drawn) throw std::runtime_error(path + ": the drawing cannot be rendered");
+  if (written != CAIRO_STATUS_SUCCESS)
+    throw InputError(path + ": cannot be written: " + cairo_status_to_string(written));
 }
 
 }  // namespace genio

@@ -47,7 +47,8 @@ class Svg {
 /// Text for SVG and HTML: &, < and > as entities.
 std::string escaped(const std::string& text);
 
-/// Renders SVG text to a PNG file at `scale` times its size. Throws std::runtime_error.
+/// Renders SVG text to a PNG file at `scale` times its size. Throws InputError naming the path
+/// where that cannot be written, std::runtime_error where the text is no drawing.
 void write_png(const std::string& path, const std::string& svg, double scale);
 
 }  // namespace genio

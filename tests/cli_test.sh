@@ -88,4 +88,10 @@ expect 2 'no such frame' "$genio" invert --target "$example" --frames 7
 { printf 'sp\t1\td\tword\ta\t0\t0\t0\t0\t0\t0'; for k in $(seq 42); do printf '\t%d\t3' "$k"; done; echo; } >fan.tsv
 expect 2 '--palate' "$genio" invert --target fan.tsv
 expect 1 'genio serve' "$genio" request --lcm tcpq://127.0.0.1:7799 --target "$example" --timeout-s 1
+# Benchmarks are a program beside this one.
+expect 0 'Benchmarks:' "$genio" bench --help
+expect 2 'not in' "$genio" bench nothing
+expect 2 'bench peer: needs --data' "$genio" bench peer
+expect 2 "no data set's name contains" "$genio" bench discover --only no-such-case
+mkdir alone && cp "$genio" alone/ && expect 2 'genio-bench is missing' alone/genio bench forward
 exit $failed

@@ -1,6 +1,9 @@
+#include "bench/experiments/grenoble_gravity.hpp"
+
 #include <fmt/format.h>
 
-#include "bench/figures/benchmarks.hpp"
+#include <nlohmann/json.hpp>
+
 #include "bench/problems/calculix.hpp"
 #include "bench/problems/measure.hpp"
 #include "discrepancy/contest/discover.hpp"
@@ -11,10 +14,10 @@
 namespace genio::bench {
 namespace {
 
-constexpr double noise = 0.4e-3, correlation = 8e-3;  // [m]
-constexpr double force_error = 0.1;
+constexpr double noise_sd = 0.4e-3, correlation = 8e-3;  // [m]
+constexpr double told_error = 0.1;
 constexpr double gravity = 9.81;  // downwards [m/s^2]
-constexpr int line_points = 32, across_points = 20;
+constexpr int points_along = 32, points_across = 20;
 constexpr int rounds = 2;  // of muscle forces and shapes in turn
 
 using Posture = std::map<std::string, double>;  // of both sides together [N]
@@ -64,9 +67,8 @@ std::optional<Positions> shape(const Model& heavy, const Posture& posture) {
   return x;
 }
 
-}  // namespace
-
-Json grenoble_gravity(const std::string& folder, const Progress& progress) {
+Json run_grenoble_gravity(const BenchOptions& asked, const Progress& progress) {
+  const std::string& folder = asked.data;
   ModelDescription light = import_grenoble(folder);
   for (const char* contact : {"palate_contact", "jaw_contact", "gravity"})
     light.effects.erase(contact);
@@ -76,30 +78,39 @@ Json grenoble_gravity(const std::string& folder, const Progress& progress) {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   Observations o;
-  o.noise = noise, o.noise_correlation = correlation;
+  o.noise = noise_sd, o.noise_correlation = correlation;
   for (size_t k = 0; k < postures().size(); ++k) {
     const auto x = shape(heavy, postures()[k]);
     if (!x) return {{"failed", "ccx is not installed or did not converge"}};
     if (progress) progress(fmt::format("posture {} of {} by CalculiX", k + 1, postures().size()));
-    auto points = contours_of(heavy, *x, line_points, across_points);
-    add_noise(points, noise, correlation, random);
+    auto points = contours_of(heavy, *x, points_along, points_across);
+    add_noise(points, noise_sd, correlation, random);
     Condition c;
     c.name = fmt::format("posture {}", k + 1), c.heldout = k + heldout >= postures().size();
-    c.target = target_of(points, noise);
+    c.target = target_of(points, noise_sd);
     c.forces.emplace();
     for (const auto& [name, f] : postures()[k])
       for (int i : command_parameters(model, name)) {
         const auto& info = model.parameters[size_t(i)].info;
         Parameters p = default_parameters(model);
         set_command(model, name, f, p);
-        const double told = std::clamp(p[i] * (1 + force_error * normal(random)), 0.0, info.upper);
-        (*c.forces)[info.name] = {told, force_error * told};
+        const double told = std::clamp(p[i] * (1 + told_error * normal(random)), 0.0, info.upper);
+        (*c.forces)[info.name] = {told, told_error * told};
       }
     o.conditions.push_back(std::move(c));
   }
   DiscoverOptions options;
   options.progress = progress;
   return to_json(discover(light, o, options), o, "");
+}
+
+}  // namespace
+
+Benchmark grenoble_gravity_bench() {
+  return {.name = "grenoble-gravity",
+          .about = "What discovery says of Grenoble postures that CalculiX made with gravity",
+          .options = {{"--data", "folder of the ANSYS files", true}},
+          .run = run_grenoble_gravity};
 }
 
 }  // namespace genio::bench

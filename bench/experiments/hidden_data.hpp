@@ -2,7 +2,7 @@
 // Data sets in which an effect is hidden, written as a user would have them.
 
 #include "bench/experiments/hidden_change.hpp"
-#include "bench/figures/benchmarks.hpp"
+#include "bench/problems/benchmark.hpp"
 
 namespace genio::bench {
 

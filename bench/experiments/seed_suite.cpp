@@ -2,91 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
+#include <nlohmann/json.hpp>
+#include <tuple>
 
+#include "bench/experiments/seed_rows.hpp"
+#include "bench/experiments/surface_edges.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/effects/muscles/muscles.hpp"
 #include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "report/shape_picture.hpp"
 #include "report/svg.hpp"
 
-namespace genio {
+namespace genio::bench {
 namespace {
-
-using Json = nlohmann::json;
-
-struct Printed {
-  const char *measure, *words;
-  double value;  ///< [mm]; NaN where the paper gives a direction only
-  int sign;      ///< of that direction
-};
-
-struct Row {
-  const char* name;
-  std::vector<std::pair<const char*, double>> forces;  ///< as printed [N]
-  std::vector<Printed> printed;
-};
-
-const double words_only = std::nan("");
-
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all = {
-      {"GGP", {{"GGP", 2}}, {{"rear_forward_mm", "20", 20, 1}, {"dorsum_up_mm", "9", 9, 1}}},
-      {"GGP+TRANS", {{"GGP", 2}, {"TRANS", 0.1}}, {{"dorsum_up_mm", "13", 13, 1}}},
-      {"GGA",
-       {{"GGA", 0.5}},
-       {{"tip_dz_mm", "slightly down", words_only, -1},
-        {"groove_mm", "groove behind the tip", words_only, 1}}},
-      {"HG", {{"HG", 1}}, {{"rear_down_mm", "12", 12, 1}, {"rear_back_mm", "back", words_only, 1}}},
-      {"STY",
-       {{"STY", 1}},
-       {{"dorsum_up_mm", "up", words_only, 1},
-        {"tip_dz_mm", "down", words_only, -1},
-        {"tip_dx_mm", "back", words_only, 1}}}};
-  return all;
-}
-
-/// What moved [mm]: of the midsagittal line's rear (behind the dorsum) and top (within 15 mm of the
-/// dorsum), of the tip, and how much deeper the middle of the blade lies than its sides.
-std::map<std::string, double> measures(const Model& m, const Positions& x) {
-  const Vector u = 1e3 * (x - m.rest);
-  std::map<std::string, double> r;
-  bool rear = false;
-  double forward = 0, back = 0, down = 0, up = 0;
-  const double top = m.mesh.nodes[size_t(m.landmarks.dorsum)][0];
-  for (int n : m.midsagittal) {
-    rear |= n == m.landmarks.dorsum;
-    if (std::abs(m.mesh.nodes[size_t(n)][0] - top) < 0.015) up = std::max(up, u[3 * n + 2]);
-    if (!rear) continue;
-    forward = std::max(forward, -u[3 * n]), back = std::max(back, u[3 * n]);
-    down = std::max(down, -u[3 * n + 2]);
-  }
-  const Vec3 tip = m.mesh.nodes[size_t(m.landmarks.tip)];
-  double middle = 0, sides = 0;
-  int middle_count = 0, side_count = 0;
-  for (const Quad& face : m.surface) {
-    const Vec3 normal = Vec3(m.mesh.nodes[size_t(face[2])] - m.mesh.nodes[size_t(face[0])])
-                            .cross(m.mesh.nodes[size_t(face[3])] - m.mesh.nodes[size_t(face[1])])
-                            .normalized();
-    if (normal[2] < 0.5) continue;
-    for (int n : face) {
-      const Vec3& at = m.mesh.nodes[size_t(n)];
-      if (at[0] < tip[0] + 0.006 || at[0] > tip[0] + 0.025) continue;
-      if (std::abs(at[1]) < 2e-3) middle += u[3 * n + 2], ++middle_count;
-      if (std::abs(at[1]) > 8e-3) sides += u[3 * n + 2], ++side_count;
-    }
-  }
-  r["rear_forward_mm"] = forward, r["rear_back_mm"] = back, r["rear_down_mm"] = down;
-  r["dorsum_up_mm"] = up;
-  r["tip_dx_mm"] = u[3 * m.landmarks.tip], r["tip_dz_mm"] = u[3 * m.landmarks.tip + 2];
-  r["groove_mm"] = middle_count && side_count ? sides / side_count - middle / middle_count : 0;
-  return r;
-}
 
 Model variant(const ModelDescription& tongue, const std::string& source, bool cadaver, bool palate,
               bool jaw) {
@@ -101,46 +33,6 @@ Model variant(const ModelDescription& tongue, const std::string& source, bool ca
 void write_picture(const std::string& path, const std::string& svg) {
   write_text(path + ".svg", svg);
   write_png(path + ".png", svg, 1);
-}
-
-Json compared(const Row& row, const std::map<std::string, double>& moved) {
-  Json list = Json::array();
-  for (const Printed& p : row.printed) {
-    const double value = moved.at(p.measure);
-    Json j = {{"measure", p.measure}, {"paper", p.words}, {"ours_mm", value}};
-    if (std::isnan(p.value)) j["agrees"] = value * p.sign > 0;
-    else j["deviation_mm"] = value - p.value;
-    list.push_back(std::move(j));
-  }
-  return list;
-}
-
-/// Angles between neighbouring faces of the tongue's own surface [deg].
-std::vector<double> edge_angles(const Model& m, const Positions& x) {
-  std::map<std::pair<int, int>, std::vector<Vec3>> edges;
-  for (const Quad& f : m.surface) {
-    if (std::any_of(f.begin(), f.end(),
-                    [&](int n) { return m.supports[size_t(n)] != Support::free; }))
-      continue;
-    const Vec3 normal = Vec3(node_position(x, f[2]) - node_position(x, f[0]))
-                            .cross(Vec3(node_position(x, f[3]) - node_position(x, f[1])))
-                            .normalized();
-    for (size_t i = 0; i < 4; ++i) edges[std::minmax(f[i], f[(i + 1) % 4])].push_back(normal);
-  }
-  std::vector<double> angles;
-  for (const auto& [edge, normals] : edges)
-    if (normals.size() == 2)
-      angles.push_back(180 / M_PI * std::acos(std::clamp(normals[0].dot(normals[1]), -1.0, 1.0)));
-  return angles;
-}
-
-/// How much sharper than at rest the surface's edges became [deg].
-Json sharpness(const Model& m, const Positions& x) {
-  const auto before = edge_angles(m, m.rest);
-  auto change = edge_angles(m, x);
-  for (size_t i = 0; i < change.size(); ++i) change[i] -= before[i];
-  std::sort(change.begin(), change.end());
-  return {{"largest_deg", change.back()}, {"p99_deg", change[change.size() * 99 / 100]}};
 }
 
 /// STY with its forces concentrated as the seed model has them, every fibre pulling with the same
@@ -166,7 +58,8 @@ Json styloglossus(const ModelDescription& tongue, const std::string& source,
       j[name] = {{"status", "failed"}, {"message", e.message}};
       continue;
     }
-    j[name] = sharpness(*model, e.x);
+    const EdgeSharpness edges = sharpness(*model, e.x);
+    j[name] = {{"largest_deg", edges.largest}, {"p99_deg", edges.p99}};
     if (!folder.empty())
       write_picture(folder + "/STY_" + name,
                     draw_shape(*model, e.x, fmt::format("STY 1 N a side, {} forces", name)));
@@ -174,16 +67,57 @@ Json styloglossus(const ModelDescription& tongue, const std::string& source,
   return j;
 }
 
-}  // namespace
+/// One posture of the suite.
+struct SuiteCase {
+  const PrintedRow& row;
+  const char *law, *forces, *contact;
+  bool pictured;
+};
 
-Json seed_suite(const ModelDescription& tongue, const std::string& source,
-                const std::string& folder,
-                const std::function<void(const std::string&)>& progress) {
-  if (!folder.empty()) std::filesystem::create_directories(folder);
-  Json list = Json::array();
-  std::string csv =
-      "row,law,forces,contact,status,rear_forward_mm,rear_back_mm,rear_down_mm,dorsum_up_mm,"
-      "tip_dx_mm,tip_dz_mm,groove_mm,volume_percent,penetration_mm,message\n";
+constexpr const char* columns[] = {"rear_forward_mm", "rear_back_mm", "rear_down_mm",
+                                   "dorsum_up_mm",    "tip_dx_mm",    "tip_dz_mm",
+                                   "groove_mm"};
+
+Json case_json(const SuiteCase& c, const Model& m, const Equilibrium& e) {
+  Json j = {{"row", c.row.name},
+            {"law", c.law},
+            {"forces", c.forces},
+            {"contact", c.contact},
+            {"status", e ? "converged" : "failed"},
+            {"message", e.message}};
+  if (!e) return j;
+  const auto moves = measured_moves(m, e.x);
+  for (const auto& [name, value] : moves) j[name] = value;
+  j["volume_percent"] = 100 * (mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest) - 1);
+  j["max_penetration_mm"] = 1e3 * max_penetration(m, e.x, e.parameters);
+  j["paper"] = compared(c.row, moves);
+  return j;
+}
+
+/// For people.
+std::string case_line(const SuiteCase& c, const Json& j) {
+  std::string line =
+      fmt::format("{:<10} {:<8} {:<9} contact {:<7}", c.row.name, c.law, c.forces, c.contact);
+  if (j["status"] != "converged") return line + "  " + j["message"].get<std::string>();
+  for (const Json& p : j["paper"])
+    line += fmt::format("  {} {:.1f} (paper {})", p["measure"].get<std::string>(),
+                        p["ours_mm"].get<double>(), p["paper"].get<std::string>());
+  return line;
+}
+
+std::string case_csv(const SuiteCase& c, const Json& j) {
+  std::string csv = fmt::format("{},{},{},{}", c.row.name, c.law, c.forces, c.contact);
+  if (j["status"] != "converged")
+    return csv + fmt::format(",failed,,,,,,,,,,{}\n", j["message"].get<std::string>());
+  csv += ",converged";
+  for (const char* name : columns) csv += fmt::format(",{:.3f}", j[name].get<double>());
+  return csv + fmt::format(",{:.4f},{:.4f},\n", j["volume_percent"].get<double>(),
+                           j["max_penetration_mm"].get<double>());
+}
+
+/// Hands over every posture with its model and its shape.
+template <class Act>
+void each_case(const ModelDescription& tongue, const std::string& source, Act act) {
   for (const bool cadaver : {true, false})
     for (const auto& [contact, palate, jaw] : {std::tuple{"off", false, false},
                                                {"palate", true, false},
@@ -192,58 +126,61 @@ Json seed_suite(const ModelDescription& tongue, const std::string& source,
       const Model m = variant(tongue, source, cadaver, palate, jaw);
       Workspace ws(m);
       for (const bool per_side : {true, false})
-        for (const Row& row : rows()) {
+        for (const PrintedRow& row : printed_rows()) {
           Parameters p = default_parameters(m);
           for (const auto& [muscle, newtons] : row.forces)
             set_command(m, muscle, per_side ? 2 * newtons : newtons, p);
-          const Equilibrium e = solve_equilibrium(m, p, m.rest, ws);
-          Json j = {{"row", row.name},
-                    {"law", cadaver ? "cadaver" : "living"},
-                    {"forces", per_side ? "per side" : "in all"},
-                    {"contact", contact},
-                    {"status", e ? "converged" : "failed"},
-                    {"message", e.message}};
-          std::string line = fmt::format("{:<10} {:<8} {:<9} contact {:<7}", row.name,
-                                         cadaver ? "cadaver" : "living",
-                                         per_side ? "per side" : "in all", contact);
-          if (e) {
-            const auto moved = measures(m, e.x);
-            for (const auto& [name, value] : moved) j[name] = value;
-            j["volume_percent"] =
-                100 * (mesh_volume(m.mesh, e.x) / mesh_volume(m.mesh, m.rest) - 1);
-            j["max_penetration_mm"] = 1e3 * max_penetration(m, e.x, p);
-            j["paper"] = compared(row, moved);
-            for (const Json& c : j["paper"])
-              line += fmt::format("  {} {:.1f} (paper {})", c["measure"].get<std::string>(),
-                                  c["ours_mm"].get<double>(), c["paper"].get<std::string>());
-            csv += fmt::format("{},{},{},{},converged", row.name, cadaver ? "cadaver" : "living",
-                               per_side ? "per side" : "in all", contact);
-            for (const char* name : {"rear_forward_mm", "rear_back_mm", "rear_down_mm",
-                                     "dorsum_up_mm", "tip_dx_mm", "tip_dz_mm", "groove_mm"})
-              csv += fmt::format(",{:.3f}", moved.at(name));
-            csv += fmt::format(",{:.4f},{:.4f},\n", j["volume_percent"].get<double>(),
-                               j["max_penetration_mm"].get<double>());
-            if (!folder.empty() && per_side && (palate == jaw))
-              write_picture(fmt::format("{}/{}_{}_contact_{}", folder, row.name,
-                                        cadaver ? "cadaver" : "living", contact),
-                            draw_shape(m, e.x, line));
-          } else {
-            line += "  " + e.message;
-            csv += fmt::format("{},{},{},{},failed,,,,,,,,,,{}\n", row.name,
-                               cadaver ? "cadaver" : "living", per_side ? "per side" : "in all",
-                               contact, e.message);
-          }
-          if (progress) progress(line);
-          list.push_back(std::move(j));
+          act(SuiteCase{row, cadaver ? "cadaver" : "living", per_side ? "per side" : "in all",
+                        contact, per_side && palate == jaw},
+              m, solve_equilibrium(m, p, m.rest, ws));
         }
     }
+}
+
+Json run_seed_suite(const BenchOptions& o, const Progress& progress) {
+  if (!o.out.empty()) std::filesystem::create_directories(o.out);
+  const ModelDescription tongue = read_description(o.model);
+  Json list = Json::array();
+  std::string csv =
+      fmt::format("row,law,forces,contact,status,{},volume_percent,penetration_mm,message\n",
+                  fmt::join(columns, ","));
+  each_case(tongue, o.model, [&](const SuiteCase& c, const Model& m, const Equilibrium& e) {
+    const Json j = case_json(c, m, e);
+    const std::string line = case_line(c, j);
+    if (e && c.pictured && !o.out.empty())
+      write_picture(fmt::format("{}/{}_{}_contact_{}", o.out, c.row.name, c.law, c.contact),
+                    draw_shape(m, e.x, line));
+    csv += case_csv(c, j);
+    progress(line);
+    list.push_back(j);
+  });
   Json result = {{"model", tongue.name}, {"rows", list}};
-  result["styloglossus_edges"] = styloglossus(tongue, source, folder);
-  if (!folder.empty()) {
-    write_text(folder + "/suite.json", result.dump(2) + "\n");
-    write_text(folder + "/suite.csv", csv);
+  result["styloglossus_edges"] = styloglossus(tongue, o.model, o.out);
+  if (!o.out.empty()) {
+    write_text(o.out + "/suite.json", result.dump(2) + "\n");
+    write_text(o.out + "/suite.csv", csv);
   }
   return result;
 }
 
-}  // namespace genio
+std::string edges_for_people(const Json& result) {
+  std::string text;
+  for (const char* how : {"concentrated", "distributed"})
+    text += fmt::format(
+        "STY, {} forces: edges of the surface up to {:.1f} deg sharper than at "
+        "rest\n",
+        how, result["styloglossus_edges"][how].value("largest_deg", std::nan("")));
+  return text;
+}
+
+}  // namespace
+
+Benchmark seed_suite_bench() {
+  return {.name = "seed",
+          .about = "The seed paper's forward results, on this tongue",
+          .options = {{"--out", "folder for tables and pictures"}},
+          .run = run_seed_suite,
+          .for_people = edges_for_people};
+}
+
+}  // namespace genio::bench

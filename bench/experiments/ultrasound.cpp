@@ -1,9 +1,13 @@
+#include "bench/experiments/ultrasound.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 
-#include "bench/figures/benchmarks.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/search/multi_start.hpp"
 
@@ -48,19 +52,17 @@ Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& t
   return j;
 }
 
-}  // namespace
-
-Json ultrasound(const Model& m, const std::string& contours, const std::string& palate, bool all,
-                const Progress& progress) {
-  const auto [file, r] = register_file(m, read_contours(contours), palate);
+Json run_ultrasound(const BenchOptions& o, const Progress& progress) {
+  const Model m = read_model(o.model);
+  const auto [file, r] = register_file(m, read_contours(o.target), o.palate);
   InferWorkspace ws(m);
   Json frames = Json::array();
   std::vector<double> rms, seconds;
   int empty = 0;
   std::map<std::string, int> verdicts;
   InferOptions infer;
-  for (const ContourFrame* frame : all ? every_frame(file) : middle_frames(file)) {
-    if (!all) infer = {};
+  for (const ContourFrame* frame : o.all ? every_frame(file) : middle_frames(file)) {
+    if (!o.all) infer = {};
     Json j = answer_frame(m, *frame, r.transform, file.format.noise, ws, infer);
     ++verdicts[j["status"] == "converged" ? j["verdict"].get<std::string>() : "no answer"];
     if (progress)
@@ -86,6 +88,17 @@ Json ultrasound(const Model& m, const std::string& contours, const std::string& 
           {"scale", r.transform.scale},
           {"palate_rms_mm", 1e3 * r.palate_rms},
           {"frames", frames}};
+}
+
+}  // namespace
+
+Benchmark ultrasound_bench() {
+  return {.name = "ultrasound",
+          .about = "A recording, one frame a word or all, registered by its palate trace",
+          .options = {{"--target", "contours, one label a word", true},
+                      {"--palate", "palate trace of the same session", true},
+                      {"--all", "every frame, not one a word"}},
+          .run = run_ultrasound};
 }
 
 }  // namespace genio::bench

@@ -1,13 +1,13 @@
-#include "discrepancy/contest/discover.hpp"
+#include "bench/figures/discover.hpp"
 
 #include <fmt/format.h>
 
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
-#include "bench/experiments/hidden_data.hpp"
-#include "bench/figures/discover_table.hpp"
+#include "discrepancy/contest/discover.hpp"
 #include "forward/model/build_model.hpp"
 
 namespace genio::bench {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "bench/problems/clock.hpp"
 
@@ -58,73 +61,104 @@ void count_parameters(const Json& truth, const Json& found, Count& covered) {
   }
 }
 
+/// What all runs say together, of forces known or of unknown ones.
+class Tally {
+ public:
+  void add(const Json& answer, const Json& found);
+  void add_out_of_reach() { ++out_of_reach_; }
+  void add_error() { ++errors_; }
+  Json json() const;
+
+ private:
+  void add_single(const Json& answer, const Json& found);
+
+  Count strong_, weak_, strong_pair_, weak_pair_, false_alarm_, foreign_, two_, covered_;
+  double gap_before_ = 0, gap_after_ = 0;  // of all
+  std::vector<double> falls_, seconds_, scoring_;
+  std::map<std::string, std::map<std::string, int>> confusion_;
+  int out_of_reach_ = 0, errors_ = 0;
+};
+
+std::string joined_effects(const Json& all) {
+  std::string joined;
+  for (const Json& e : all) {
+    if (!joined.empty()) joined += '+';
+    joined += e["effect"].get<std::string>();
+  }
+  return joined;
+}
+
+void Tally::add(const Json& answer, const Json& found) {
+  const Json& hidden = answer["hidden"];
+  seconds_.push_back(found["cpu_s"]), scoring_.push_back(found["scoring_s"]);
+  const std::string truth = joined_effects(hidden), said = joined_effects(found["effects"]);
+  const std::string verdict = found["verdict"];
+  ++confusion_[truth.empty() ? "nothing" : truth][said.empty() ? verdict : verdict + ": " + said];
+  if (hidden.empty()) {
+    false_alarm_.add(gives_a_name(found));
+  } else if (hidden.size() == 2) {
+    two_.add(names_anywhere(found, hidden[0]["effect"]) &&
+             names_anywhere(found, hidden[1]["effect"]));
+  } else if (!hidden[0]["in_library"].get<bool>()) {
+    foreign_.add(gives_a_name(found));
+  } else {
+    add_single(answer, found);
+  }
+}
+
+/// One effect of the library was hidden.
+void Tally::add_single(const Json& answer, const Json& found) {
+  const Json& hidden = answer["hidden"][0];
+  const bool right = names(found, hidden["effect"]), is_strong = answer["strength"] > 0.75;
+  (is_strong ? strong_ : weak_).add(right);
+  (is_strong ? strong_pair_ : weak_pair_).add(names_in_a_pair(found, hidden["effect"]));
+  if (!right) return;
+  count_parameters(hidden, found, covered_);
+  const double before = found["heldout_excess_before_mm"], after = found["heldout_excess_after_mm"];
+  if (before > 0) falls_.push_back(1 - after / before);
+  gap_before_ += before, gap_after_ += after;
+}
+
+Json Tally::json() const {
+  const auto middle = [](const std::vector<double>& v) {
+    return v.empty() ? Json() : Json(median(v));
+  };
+  return {{"named_strength_1", strong_.json()},
+          {"named_strength_05", weak_.json()},
+          {"in_a_pair_strength_1", strong_pair_.json()},
+          {"in_a_pair_strength_05", weak_pair_.json()},
+          {"cases_strength_1", strong_.of},
+          {"cases_strength_05", weak_.of},
+          {"false_alarm", false_alarm_.json()},
+          {"cases_nothing", false_alarm_.of},
+          {"foreign_named", foreign_.json()},
+          {"two_named", two_.json()},
+          {"cases_two", two_.of},
+          {"heldout_gap_reduction", middle(falls_)},
+          {"heldout_gap_reduction_pooled",
+           gap_before_ > 0 ? Json(1 - gap_after_ / gap_before_) : Json()},
+          {"cases_right", falls_.size()},
+          {"parameter_coverage90", covered_.json()},
+          {"seconds_per_run", middle(seconds_)},
+          {"scoring_s", middle(scoring_)},
+          {"out_of_reach", out_of_reach_},
+          {"errors", errors_},
+          {"confusion", confusion_}};
+}
+
 Json figures(const std::vector<Json>& results, bool known) {
-  Count strong, weak, strong_pair, weak_pair, false_alarm, foreign, two, covered;
-  double gap_before = 0, gap_after = 0;  // of all
-  std::vector<double> falls, seconds, scoring;
-  std::map<std::string, std::map<std::string, int>> confusion;
-  int out_of_reach = 0, errors = 0;
+  Tally tally;
   for (const Json& r : results) {
-    const Json& a = r["answer"];
-    if (a.contains("failed")) {
+    const Json& answer = r["answer"];
+    if (answer.contains("failed")) {
       if (r["case"].get<std::string>().find(known ? "-known-" : "-unknown-") != std::string::npos)
-        ++out_of_reach;
-      continue;
-    }
-    if (a["forces_known"] != known) continue;
-    if (r.contains("error")) {
-      ++errors;
-      continue;
-    }
-    const Json &f = r["found"], &hidden = a["hidden"];
-    seconds.push_back(f["cpu_s"]), scoring.push_back(f["scoring_s"]);
-    std::string truth;
-    for (const Json& h : hidden)
-      truth += (truth.empty() ? "" : "+") + h["effect"].get<std::string>();
-    std::string said;
-    for (const Json& e : f["effects"])
-      said += (said.empty() ? "" : "+") + e["effect"].get<std::string>();
-    const std::string verdict = f["verdict"];
-    ++confusion[truth.empty() ? "nothing" : truth][said.empty() ? verdict : verdict + ": " + said];
-    if (hidden.empty()) {
-      false_alarm.add(gives_a_name(f));
-    } else if (hidden.size() == 2) {
-      two.add(names_anywhere(f, hidden[0]["effect"]) && names_anywhere(f, hidden[1]["effect"]));
-    } else if (!hidden[0]["in_library"].get<bool>()) {
-      foreign.add(gives_a_name(f));
-    } else {
-      const bool right = names(f, hidden[0]["effect"]), is_strong = a["strength"] > 0.75;
-      (is_strong ? strong : weak).add(right);
-      (is_strong ? strong_pair : weak_pair).add(names_in_a_pair(f, hidden[0]["effect"]));
-      if (right) {
-        count_parameters(hidden[0], f, covered);
-        const double before = f["heldout_excess_before_mm"], after = f["heldout_excess_after_mm"];
-        if (before > 0) falls.push_back(1 - after / before);
-        gap_before += before, gap_after += after;
-      }
+        tally.add_out_of_reach();
+    } else if (answer["forces_known"] == known) {
+      if (r.contains("error")) tally.add_error();
+      else tally.add(answer, r["found"]);
     }
   }
-  return {
-      {"named_strength_1", strong.json()},
-      {"named_strength_05", weak.json()},
-      {"in_a_pair_strength_1", strong_pair.json()},
-      {"in_a_pair_strength_05", weak_pair.json()},
-      {"cases_strength_1", strong.of},
-      {"cases_strength_05", weak.of},
-      {"false_alarm", false_alarm.json()},
-      {"cases_nothing", false_alarm.of},
-      {"foreign_named", foreign.json()},
-      {"two_named", two.json()},
-      {"cases_two", two.of},
-      {"heldout_gap_reduction", falls.empty() ? Json() : Json(median(falls))},
-      {"heldout_gap_reduction_pooled", gap_before > 0 ? Json(1 - gap_after / gap_before) : Json()},
-      {"cases_right", falls.size()},
-      {"parameter_coverage90", covered.json()},
-      {"seconds_per_run", seconds.empty() ? Json() : Json(median(seconds))},
-      {"scoring_s", scoring.empty() ? Json() : Json(median(scoring))},
-      {"out_of_reach", out_of_reach},
-      {"errors", errors},
-      {"confusion", confusion}};
+  return tally.json();
 }
 
 Json mean_of(const Json& a, const Json& b) {

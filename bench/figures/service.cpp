@@ -1,17 +1,23 @@
-#include "server/service.hpp"
+#include "bench/figures/service.hpp"
 
 #include <fmt/format.h>
 
 #include <atomic>
+#include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bench/figures/benchmarks.hpp"
 #include "forward/base/elapsed.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "server/client.hpp"
 #include "server/hub.hpp"
+#include "server/service.hpp"
 
 namespace genio::bench {
-Json service(const Model& m) {
+namespace {
+
+Json run_service(const BenchOptions& o, const Progress&) {
+  const Model m = read_model(o.model);
   const Hub hub(0);
   ServiceOptions options;
   options.url = fmt::format("tcpq://127.0.0.1:{}", hub.port());
@@ -47,6 +53,14 @@ Json service(const Model& m) {
           {"replies", replies},
           {"overhead_ms_median", overhead[overhead.size() / 2]},
           {"overhead_ms_p99", overhead.back()}};
+}
+
+}  // namespace
+
+Benchmark service_bench() {
+  return {.name = "service",
+          .about = "Round trips over LCM on 127.0.0.1 beside the bare computation",
+          .run = run_service};
 }
 
 }  // namespace genio::bench

@@ -1,12 +1,15 @@
 #pragma once
-// Implementation of add_traction; include problems.hpp.
 
 #include <algorithm>
 
+#include "forward/base/types.hpp"
+#include "forward/geometry/mesh.hpp"
 #include "forward/geometry/quad4.hpp"
 
 namespace genio::bench {
 
+/// Nodal forces that a constant nominal stress P puts on the faces whose nodes all satisfy
+/// `on_face` [N].
 template <class OnFace>
 void add_traction(const HexMesh& mesh, const Mat3& stress, OnFace on_face, Forces& f) {
   for (const Quad& face : boundary_quads(mesh)) {

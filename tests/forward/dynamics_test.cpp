@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "bench/problems/problems.hpp"
+#include "bench/problems/traction.hpp"
 #include "forward/geometry/box_mesh.hpp"
 #include "forward/model/build_model.hpp"
 #include "tests/forward/small_model.hpp"

@@ -6,7 +6,10 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "bench/problems/manufactured.hpp"
 #include "bench/problems/problems.hpp"
+#include "bench/problems/sphere.hpp"
+#include "bench/problems/traction.hpp"
 #include "forward/geometry/box_mesh.hpp"
 #include "forward/statics/equilibrium.hpp"
 

@@ -1,10 +1,14 @@
+#include "bench/figures/forward/robustness.hpp"
+
 #include <fmt/format.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 
-#include "bench/figures/benchmarks.hpp"
 #include "bench/problems/clock.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
 
 namespace genio::bench {
@@ -26,9 +30,9 @@ bool inverted(const Model& m, const Equilibrium& e) {
   return !std::isfinite(energy(m, e.x, e.parameters));
 }
 
-}  // namespace
-
-Json robustness(const Model& m, int count, const Progress& progress) {
+Json run_robustness(const BenchOptions& o, const Progress& progress) {
+  const Model m = read_model(o.model);
+  const int count = o.sample > 0 ? o.sample : 500;
   std::mt19937 bits(2026);
   Workspace ws(m);
   SolveOptions options;
@@ -78,6 +82,15 @@ Json robustness(const Model& m, int count, const Progress& progress) {
           {"second_equilibria", others},
           {"seconds_median", median(time)},
           {"seconds_longest", *std::max_element(time.begin(), time.end())}};
+}
+
+}  // namespace
+
+Benchmark robustness_bench() {
+  return {.name = "robustness",
+          .about = "Equilibria under random force vectors, from rest and from a neighbour",
+          .options = {{"--sample", "random force vectors (500)"}},
+          .run = run_robustness};
 }
 
 }  // namespace genio::bench

@@ -1,17 +1,19 @@
+#include "bench/figures/inverse/inversion_cost.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "bench/figures/benchmarks.hpp"
 #include "bench/problems/clock.hpp"
 #include "inverse/search/multi_start.hpp"
 
 namespace genio::bench {
 namespace {
 
-using Forces = std::vector<std::pair<const char*, double>>;
+using Truth = std::vector<std::pair<const char*, double>>;
 
-Parameters parameters(const Model& m, const Forces& forces) {
+Parameters parameters(const Model& m, const Truth& forces) {
   Parameters p = default_parameters(m);
   for (const auto& [name, newtons] : forces) set_command(m, name, newtons, p);
   return p;
@@ -20,10 +22,10 @@ Parameters parameters(const Model& m, const Forces& forces) {
 }  // namespace
 
 Json inversion_cost(const Model& m, const Progress& progress) {
-  const std::vector<Forces> truths = {{{"GGP", 2.8}, {"SL", 1.2}, {"GH", 0.9}},
-                                      {{"HG", 3.0}, {"GGA", 1.0}, {"VERT", 1.5}},
-                                      {{"STY", 1.5}, {"GGM", 0.8}, {"TRANS", 2.0}},
-                                      {{"IL", 0.5}, {"GGP", 2.0}, {"TRANS", 1.5}}};
+  const std::vector<Truth> truths = {{{"GGP", 2.8}, {"SL", 1.2}, {"GH", 0.9}},
+                                     {{"HG", 3.0}, {"GGA", 1.0}, {"VERT", 1.5}},
+                                     {{"STY", 1.5}, {"GGM", 0.8}, {"TRANS", 2.0}},
+                                     {{"IL", 0.5}, {"GGP", 2.0}, {"TRANS", 1.5}}};
   Workspace ws(m);
   InferWorkspace worker(m);
   TongueState* half = worker.half(Prior{});
@@ -32,7 +34,7 @@ Json inversion_cost(const Model& m, const Progress& progress) {
       seconds([&] { tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace); });
   std::vector<double> cold, warm, differences;
   Json cases = Json::array();
-  for (const Forces& truth : truths) {
+  for (const Truth& truth : truths) {
     Workspace fresh(m);
     Equilibrium e;
     const double forward =

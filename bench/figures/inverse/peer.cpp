@@ -1,8 +1,10 @@
+#include "bench/figures/inverse/peer.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "bench/figures/benchmarks.hpp"
 #include "forward/anatomy/import_grenoble.hpp"
 #include "forward/model/build_model.hpp"
 #include "inverse/search/multi_start.hpp"
@@ -44,10 +46,8 @@ Json solved(const Model& m, int starts) {
   return j;
 }
 
-}  // namespace
-
-Json peer(const std::string& folder, const Progress& progress) {
-  ModelDescription d = import_grenoble(folder);
+Json run_peer(const BenchOptions& o, const Progress& progress) {
+  ModelDescription d = import_grenoble(o.data);
   Json result = {{"peer_rms_mm", peer_rms}};
   for (const bool contact : {true, false}) {
     if (!contact) d.effects.erase("palate_contact"), d.effects.erase("jaw_contact");
@@ -59,6 +59,15 @@ Json peer(const std::string& folder, const Progress& progress) {
                            result[name]["verdict"].get<std::string>()));
   }
   return result;
+}
+
+}  // namespace
+
+Benchmark peer_bench() {
+  return {.name = "peer",
+          .about = "A stored run of the peer's inverse controller, repeated",
+          .options = {{"--data", "folder of the ANSYS files", true}},
+          .run = run_peer};
 }
 
 }  // namespace genio::bench

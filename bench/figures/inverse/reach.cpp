@@ -1,12 +1,16 @@
+#include "bench/figures/inverse/reach.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 
-#include "bench/figures/benchmarks.hpp"
 #include "bench/problems/clock.hpp"
 #include "bench/problems/random_muscles.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "inverse/search/multi_start.hpp"
 
 namespace genio::bench {
@@ -14,9 +18,9 @@ namespace {
 
 constexpr int more_starts = 16;
 
-}  // namespace
-
-Json reach(const Model& model, int count, const Progress& progress) {
+Json run_reach(const BenchOptions& o, const Progress& progress) {
+  const Model model = read_model(o.model);
+  const int count = o.sample > 0 ? o.sample : 200;
   InferWorkspace ws(model);
   Workspace truth(model);
   const auto commands = muscle_unknowns(model, true);
@@ -77,6 +81,15 @@ Json reach(const Model& model, int count, const Progress& progress) {
           {"failures", failures},
           {"not_explained", not_explained},
           {"truths_without_equilibrium", without_equilibrium}};
+}
+
+}  // namespace
+
+Benchmark reach_bench() {
+  return {.name = "reach",
+          .about = "Targets of the model itself, from rest to the edge of what muscles can do",
+          .options = {{"--sample", "targets (200)"}},
+          .run = run_reach};
 }
 
 }  // namespace genio::bench

@@ -1,12 +1,19 @@
+#include "bench/figures/inverse/gesture.hpp"
+
 #include <fmt/format.h>
 
-#include "bench/figures/benchmarks.hpp"
+#include <nlohmann/json.hpp>
+
 #include "bench/problems/clock.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
 #include "inverse/sequence/motion_inversion.hpp"
 
 namespace genio::bench {
+namespace {
 
-Json gesture(const Model& m, const Progress& progress) {
+Json run_gesture(const BenchOptions& o, const Progress& progress) {
+  const Model m = read_model(o.model);
   using Forces = std::vector<std::pair<const char*, double>>;
   const std::vector<std::pair<Forces, Forces>> gestures = {
       {{{"GGP", 4}, {"SL", 1}}, {{"HG", 4}, {"GGA", 2}}},
@@ -49,6 +56,14 @@ Json gesture(const Model& m, const Progress& progress) {
                            to_string(a.status), 1e3 * a.rms, inverse, inverse / forward));
   }
   return {{"gesture_over_simulation", median(ratios)}, {"gestures", cases}};
+}
+
+}  // namespace
+
+Benchmark gesture_bench() {
+  return {.name = "gesture",
+          .about = "A gesture of 200 ms inverted with its inertia, over the time of its simulation",
+          .run = run_gesture};
 }
 
 }  // namespace genio::bench

@@ -1,16 +1,21 @@
 // The slow part of the verification: tables that docs/verification.md shows.
 
+#include "bench/figures/forward/verification.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "bench/figures/benchmarks.hpp"
 #include "bench/problems/block.hpp"
+#include "bench/problems/manufactured.hpp"
 #include "bench/problems/problems.hpp"
+#include "bench/problems/sphere.hpp"
 #include "forward/anatomy/import_grenoble.hpp"
 #include "forward/anatomy/refine.hpp"
 #include "forward/effects/surroundings/gravity.hpp"
 #include "forward/motion/dynamics.hpp"
+#include "report/verification_report.hpp"
 
 namespace genio::bench {
 namespace {
@@ -169,17 +174,26 @@ Json tongue_table(const std::string& folder, const Progress& progress) {
   return rows;
 }
 
-}  // namespace
-
-Json verification(const std::string& grenoble_folder, const Progress& progress) {
+Json run_verification(const BenchOptions& o, const Progress& progress) {
   Json j;
   j["manufactured"] = manufactured_table(progress);
   j["cook"] = cook_table(progress);
   j["sphere"] = sphere_table(progress);
   j["time"] = time_table(progress);
   j["block"] = block_table(progress);
-  if (!grenoble_folder.empty()) j["tongue"] = tongue_table(grenoble_folder, progress);
+  if (!o.data.empty()) j["tongue"] = tongue_table(o.data, progress);
+  if (!o.out.empty()) write_verification(j, o.out);
   return j;
+}
+
+}  // namespace
+
+Benchmark verification_bench() {
+  return {.name = "verification",
+          .about = "The tables of docs/verification.md: order in space and time, CalculiX by mesh",
+          .options = {{"--data", "folder of the ANSYS files"},
+                      {"--out", "folder for its tables and plots"}},
+          .run = run_verification};
 }
 
 }  // namespace genio::bench

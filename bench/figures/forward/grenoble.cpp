@@ -1,8 +1,10 @@
+#include "bench/figures/forward/grenoble.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "bench/figures/benchmarks.hpp"
 #include "bench/problems/clock.hpp"
 #include "forward/anatomy/import_grenoble.hpp"
 #include "forward/model/build_model.hpp"
@@ -101,9 +103,8 @@ Json describe(const Model& m, const Case& c, bool contact, const Progress& progr
   return j;
 }
 
-}  // namespace
-
-Json grenoble(const std::string& folder, const Progress& progress) {
+Json run_grenoble(const BenchOptions& o, const Progress& progress) {
+  const std::string& folder = o.data;
   ModelDescription d = import_grenoble(folder);
   const Model with = build_model(d, folder);
   d.effects.erase("palate_contact");
@@ -113,6 +114,15 @@ Json grenoble(const std::string& folder, const Progress& progress) {
   for (const Case& c : cases) rows.push_back(describe(without, c, false, progress));
   for (const Case& c : cases) rows.push_back(describe(with, c, true, progress));
   return {{"cases", rows}};
+}
+
+}  // namespace
+
+Benchmark grenoble_bench() {
+  return {.name = "grenoble",
+          .about = "The Grenoble tongue under GGP and HG, beside an independent solution",
+          .options = {{"--data", "folder of the ANSYS files", true}},
+          .run = run_grenoble};
 }
 
 }  // namespace genio::bench

@@ -1,10 +1,12 @@
+#include "bench/figures/inverse/blind.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 
-#include "bench/figures/benchmarks.hpp"
 #include "bench/problems/clock.hpp"
 #include "bench/problems/random_muscles.hpp"
 #include "bench/problems/truth.hpp"

@@ -1,6 +1,9 @@
+#include "bench/figures/forward/dynamic.hpp"
+
 #include <fmt/format.h>
 
-#include "bench/figures/benchmarks.hpp"
+#include <nlohmann/json.hpp>
+
 #include "bench/problems/block.hpp"
 #include "bench/problems/clock.hpp"
 #include "forward/anatomy/import_grenoble.hpp"
@@ -53,10 +56,7 @@ Json tongue(const ModelDescription& description, const std::string& name, bool h
   return j;
 }
 
-}  // namespace
-
-Json dynamic(const std::string& model, const std::string& grenoble_folder,
-             const Progress& progress) {
+Json run_dynamic(const BenchOptions& o, const Progress& progress) {
   const Model m = block(1);
   Parameters p = default_parameters(m);
   p[parameter_index(m, "load.force")] = 0.2;
@@ -78,9 +78,8 @@ Json dynamic(const std::string& model, const std::string& grenoble_folder,
   }
   j["tongues"] = Json::array();
   std::vector<std::pair<std::string, ModelDescription>> tongues = {
-      {model, read_description(model)}};
-  if (!grenoble_folder.empty())
-    tongues.emplace_back(grenoble_folder, import_grenoble(grenoble_folder));
+      {o.model, read_description(o.model)}};
+  if (!o.data.empty()) tongues.emplace_back(o.data, import_grenoble(o.data));
   for (const auto& [name, description] : tongues)
     for (const bool half : {false, true}) {
       progress(fmt::format("GGP 2 N with contact: {}{}", description.name, half ? ", half" : ""));
@@ -91,6 +90,15 @@ Json dynamic(const std::string& model, const std::string& grenoble_folder,
       }
     }
   return j;
+}
+
+}  // namespace
+
+Benchmark dynamic_bench() {
+  return {.name = "dynamic",
+          .about = "120 ms of motion in steps of 2 ms over one factorisation",
+          .options = {{"--data", "folder of the ANSYS files"}},
+          .run = run_dynamic};
 }
 
 }  // namespace genio::bench

@@ -1,11 +1,13 @@
+#include "bench/figures/forward/forward.hpp"
+
 #include <malloc.h>
 #include <sys/resource.h>
 
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
-#include "bench/figures/benchmarks.hpp"
 #include "bench/problems/block.hpp"
 #include "bench/problems/calculix.hpp"
 #include "bench/problems/clock.hpp"
@@ -62,9 +64,7 @@ Json measure(const Model& m, int repeats) {
           {"peak_memory_MiB", peak_memory()}};
 }
 
-}  // namespace
-
-Json forward(const Progress& progress) {
+Json run_forward(const BenchOptions&, const Progress& progress) {
   const Model m = block(1);
   progress("block of 960 elements");
   Json j = measure(m, 7);
@@ -92,6 +92,14 @@ Json forward(const Progress& progress) {
     j["larger"].push_back(std::move(larger));
   }
   return j;
+}
+
+}  // namespace
+
+Benchmark forward_bench() {
+  return {.name = "forward",
+          .about = "Static solves of the block over one factorisation, beside CalculiX",
+          .run = run_forward};
 }
 
 }  // namespace genio::bench
