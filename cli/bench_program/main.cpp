@@ -62,8 +62,7 @@ void declare(CLI::App& app, std::string& what, BenchOptions& o, bool& json) {
 }
 
 void run(const Benchmark& b, const BenchOptions& o, bool json) {
-  const auto result =
-      bench::run_benchmark(b, o, print_line);
+  const auto result = bench::run_benchmark(b, o, print_line);
   if (json) fmt::print("{}\n", result.dump());
   else if (b.for_people) fmt::print("{}", b.for_people(result));
   else fmt::print("{}\n", result.dump(2));
