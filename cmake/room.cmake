@@ -4,7 +4,7 @@ include(GNUInstallDirs)
 add_library(genio_flags INTERFACE)
 target_compile_options(genio_flags INTERFACE -fPIC -pthread -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wno-psabi
                        -Wno-maybe-uninitialized -Wno-restrict -Wno-array-bounds
-                       -Wno-stringop-overflow)  # GCC 12 bugs 105593, 105329, 105651
+                       -Wno-stringop-overflow -Wno-stringop-overread)  # GCC 12 bugs 105593, 105329, 105651
 target_compile_definitions(genio_flags INTERFACE GENIO_VERSION="${PROJECT_VERSION}")
 if(GENIO_WERROR)
   # GCC 12 bug 105593 once more: Eigen's AVX-512 logarithm, so only on machines that have it.
