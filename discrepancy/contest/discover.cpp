@@ -3,24 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include "discrepancy/conditions/influence.hpp"
 #include "discrepancy/contest/selection_round.hpp"
+#include "forward/base/elapsed.hpp"
 #include "inverse/posterior/distributions.hpp"
 
 namespace genio {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double worth_a_line = 0.01;  // probability of an alternative that is reported
-
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// What the rounds so far have come to.
 struct Search {
@@ -108,11 +102,11 @@ Search with_winner_added(Search s, const SelectionRound& r, const DiscoverOption
 
 /// The search after one round more.
 Search after_round(Search s, const DiscoverOptions& options) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const ModelFit& m = s.null_model.model;
   const auto influences = influences_of(*m.set, m.fit);
   const Projection projection(m.fit, s.null_model.errors.fitted->covariance);
-  const double seconds = since(start);
+  const double seconds = watch.seconds();
   if (s.discovery.rounds.empty()) {
     s.discovery.map_before = s.discovery.map_after = map_of(s.null_model);
     s.discovery.hidden = hidden_force(*m.set, influences, projection);
@@ -176,7 +170,7 @@ DiscoveryVerdict verdict_of(const std::vector<double>& confidence, double fit_ta
 
 Discovery discover(const ModelDescription& description, const Observations& observations,
                    const DiscoverOptions& options) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   options.report_progress(fmt::format("{} conditions to fit, {} held out",
                                       fitted_conditions(observations).size(),
                                       heldout_conditions(observations).size()));
@@ -184,7 +178,7 @@ Discovery discover(const ModelDescription& description, const Observations& obse
   for (int round = 0; round < options.most_effects && !s.over; ++round)
     s = after_round(std::move(s), options);
   Discovery d = concluded(s, description, options);
-  d.seconds = since(start);
+  d.seconds = watch.seconds();
   return d;
 }
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "discrepancy/candidates/response.hpp"
 #include "discrepancy/conditions/influence.hpp"
 #include "discrepancy/contest/refit.hpp"
 #include "discrepancy/contest/settled_fit.hpp"
+#include "forward/base/elapsed.hpp"
 
 namespace genio {
 namespace {
@@ -143,12 +143,11 @@ SelectionRound scored(const NullModel& null_model, const std::vector<Matrix>& in
   s.null_model = null_model;
   s.round.chi_square = null_model.model.chi_square, s.round.dof = null_model.model.dof;
   const auto all = candidates_beside(found, null_model);
-  const auto started = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const auto scores =
       score(all, *null_model.model.set, null_model.model.fit, influences, projection);
   s.round.candidates = as_scored(all, scores, log_prior(all));
-  s.round.seconds_scoring =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  s.round.seconds_scoring = watch.seconds();
   return s;
 }
 
