@@ -2,14 +2,14 @@
 
 #include <cstdio>
 
-#include "cli/bench.hpp"
-#include "cli/discover.hpp"
-#include "cli/forward.hpp"
-#include "cli/import.hpp"
-#include "cli/info.hpp"
-#include "cli/invert.hpp"
-#include "cli/request.hpp"
-#include "cli/serve.hpp"
+#include "cli/subcommands/bench.hpp"
+#include "cli/subcommands/discover.hpp"
+#include "cli/subcommands/forward.hpp"
+#include "cli/subcommands/import.hpp"
+#include "cli/subcommands/info.hpp"
+#include "cli/subcommands/invert.hpp"
+#include "cli/subcommands/request.hpp"
+#include "cli/subcommands/serve.hpp"
 #include "forward/base/types.hpp"
 
 int main(int argc, char** argv) {

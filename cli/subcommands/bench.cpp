@@ -1,4 +1,4 @@
-#include "cli/bench.hpp"
+#include "cli/subcommands/bench.hpp"
 
 #include "cli/run_bench.hpp"
 

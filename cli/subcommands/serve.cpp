@@ -1,4 +1,4 @@
-#include "cli/serve.hpp"
+#include "cli/subcommands/serve.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/info.hpp"
+#include "cli/subcommands/info.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/import.hpp"
+#include "cli/subcommands/import.hpp"
 
 #include <fmt/format.h>
 

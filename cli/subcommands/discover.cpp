@@ -1,4 +1,4 @@
-#include "cli/discover.hpp"
+#include "cli/subcommands/discover.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/request.hpp"
+#include "cli/subcommands/request.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/invert.hpp"
+#include "cli/subcommands/invert.hpp"
 
 #include <fmt/format.h>
 

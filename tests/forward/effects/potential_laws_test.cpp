@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "forward/effects/newton_aid.hpp"
-#include "tests/forward/battery.hpp"
+#include "tests/forward/effects/battery.hpp"
 
 namespace genio {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/forward.hpp"
+#include "cli/subcommands/forward.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Every dissipation obeys the same laws: the viscous force is minus its derivative by the
 // velocities, damping minus the force's, symmetric; slopes and parameter derivatives are exact.
 
-#include "tests/forward/battery.hpp"
+#include "tests/forward/effects/battery.hpp"
 
 namespace genio {
 namespace {
