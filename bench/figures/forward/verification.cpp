@@ -73,10 +73,9 @@ Json time_table(const Progress& progress) {
     p[parameter_index(m, "load.force")] = 0.2 * std::pow(std::sin(M_PI * i / 320), 4);
     load.times.push_back(1.25e-4 * i), load.values.push_back(p);
   }
-  for (const auto& [name, scheme] :
-       {std::pair{"newmark", TimeScheme::newmark()},
-        {"generalised-alpha 0.5", TimeScheme::generalised_alpha(0.5)}}) {
-    const auto end = [&](double step) {
+  for (const auto& [name, by] : {std::pair{"newmark", TimeScheme::newmark()},
+                                 {"generalised-alpha 0.5", TimeScheme::generalised_alpha(0.5)}}) {
+    const auto end = [&, scheme = by](double step) {
       TimeOptions o;
       o.duration = 0.04, o.step = step, o.scheme = scheme, o.tolerance = 1e-7;
       Workspace ws(m);
