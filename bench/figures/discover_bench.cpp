@@ -9,6 +9,7 @@
 
 #include "bench/figures/discover.hpp"
 #include "bench/figures/discover_table.hpp"
+#include "forward/model/model_file.hpp"
 #include "runs/process/progress_line.hpp"
 #include "runs/process/workers.hpp"
 #include "runs/results/line_log.hpp"

@@ -1,5 +1,6 @@
 #include "report/svg.hpp"
 
+#include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
 #include "tests/report/markup.hpp"
 
