@@ -12,7 +12,7 @@ quick='-*,bugprone-argument-comment,bugprone-copy-constructor-init,bugprone-dang
   bugprone-fold-init-type,bugprone-inaccurate-erase,bugprone-infinite-loop,
   bugprone-integer-division,bugprone-move-forwarding-reference,bugprone-parent-virtual-call,
   bugprone-string-constructor,bugprone-unused-raii,bugprone-unused-return-value,
-  bugprone-use-after-move,performance-for-range-copy,performance-inefficient-vector-operation,
+  bugprone-use-after-move,performance-for-range-copy,
   performance-move-const-arg,performance-unnecessary-copy-initialization,
   performance-unnecessary-value-param,modernize-use-override,readability-container-size-empty'
 

@@ -31,7 +31,7 @@ double cost(const JointFit& f, const Errors& errors) {
 }  // namespace
 
 CorrectionsAtFit corrections_at(const ConditionSet& set, const JointFit& fit,
-                                std::shared_ptr<const Refinement> refinement) {
+                                const std::shared_ptr<const Refinement>& refinement) {
   if (!refinement) return {smoothing(set, fit), nullptr};
   RefinedCorrections refined = refinement->corrections(set, fit);
   return {std::move(refined.corrections),

@@ -15,7 +15,7 @@ struct CorrectionsAtFit {
 /// The mesh's own error at a fit. Without a refinement (null) the mesh is taken to be exact, and
 /// nothing is corrected but what smooth distances are off by.
 CorrectionsAtFit corrections_at(const ConditionSet& set, const JointFit& fit,
-                                std::shared_ptr<const Refinement> refinement);
+                                const std::shared_ptr<const Refinement>& refinement);
 
 /// The errors at a fit with these corrections.
 Errors errors_at(ConditionSet& set, const JointFit& fit, Corrections corrections,

@@ -2,8 +2,9 @@
 
 namespace genio {
 
-EffectChange change_by_table(const std::string& name, std::function<EffectTable(double)> table,
-                             double first, double most) {
+EffectChange change_by_table(const std::string& name,
+                             const std::function<EffectTable(double)>& table, double first,
+                             double most) {
   return {.effect = name,
           .first = first,
           .most = most,

@@ -35,8 +35,9 @@ struct ChangeDraw {
 };
 
 /// Adds `table(s)` as [effect.NAME] to the tongue as it is.
-EffectChange change_by_table(const std::string& name, std::function<EffectTable(double)> table,
-                             double first, double most);
+EffectChange change_by_table(const std::string& name,
+                             const std::function<EffectTable(double)>& table, double first,
+                             double most);
 
 /// Sets one parameter to absent + s unit.
 struct ChangeOfNumber {

@@ -32,7 +32,8 @@ std::vector<int> partners(const HexMesh& mesh) {
     const Vec3 image(x[0], -x[1], x[2]);
     int found = -1;
     for (int c = 0; c < 27 && found < 0; ++c) {  // rounding may fall into a neighbouring cell
-      const Vec3 shift = same_place * Vec3(c % 3 - 1, c / 3 % 3 - 1, c / 9 - 1);
+      const Eigen::Vector3i cell(c % 3 - 1, c / 3 % 3 - 1, c / 9 - 1);
+      const Vec3 shift = same_place * cell.cast<double>();
       if (const auto it = at.find(key(image, shift)); it != at.end())
         if ((mesh.nodes[size_t(it->second)] - image).norm() < same_place) found = it->second;
     }

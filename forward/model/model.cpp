@@ -100,7 +100,7 @@ Model::Model(ModelParts from)
       jaw(std::move(from.jaw)),
       hyoid(std::move(from.hyoid)),
       effects(std::move(from.effects)),
-      tissue_mass(std::move(from.tissue_mass)),
+      tissue_mass(from.tissue_mass),
       rest(rest_positions(mesh)),
       surface(boundary_quads(mesh)),
       batches(element_batches(mesh)),

@@ -28,7 +28,7 @@ MixedState Newton::at(const Positions& x, std::optional<Vector> pressure) const 
   if (!std::isfinite(s.energy)) return s;
   s.bulk = bulk(model_, x, p_);
   const Vector own = s.bulk.pressure();
-  s.pressure = pressure ? std::move(*pressure) : own;
+  s.pressure = pressure.value_or(own);
   Forces f = force(model_, x, p_);
   s.force = model_.dofs.reduce(f);
   s.bulk.gradients.add_times(own - s.pressure, f);
