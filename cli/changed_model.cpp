@@ -4,6 +4,7 @@
 
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
+#include "forward/model/effect_kinds.hpp"
 #include "forward/model/model_file.hpp"
 
 namespace genio::cli {
@@ -19,7 +20,7 @@ Model changed_model(const std::string& model, const ModelChanges& changes) {
     if (name.find('.') == std::string::npos)
       throw InputError(fmt::format("--effect {}: expected NAME.parameter=VALUE", text));
     const auto [effect, key] = ParameterName::parse(name);
-    if (effect == "muscles")
+    if (const EffectKind* kind = find_kind(effect); kind && kind->always)
       throw InputError(fmt::format("--effect {}: give commands by --force", text));
     if (effect == "gravity" && !description.effects.contains(effect))
       description.effects[effect] = {{"x", 0}, {"y", 0}, {"z", 0}};

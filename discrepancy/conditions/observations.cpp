@@ -8,6 +8,7 @@
 
 #include "forward/base/toml_reader.hpp"
 #include "forward/model/build_effects.hpp"
+#include "forward/model/effect_kinds.hpp"
 #include "forward/model/hypothesis.hpp"
 #include "inverse/recording/contour_file.hpp"
 #include "inverse/recording/frame_target.hpp"
@@ -147,10 +148,9 @@ Condition read_condition(const TomlReader& file, const toml::node& node, const M
 ParameterName effect_parameter(const std::string& name, const std::string& source) {
   const bool is_whole = name.find('.') != std::string::npos;
   const std::string effect = is_whole ? ParameterName::parse(name).effect : name;
-  const auto& names = effect_names();
-  if (std::find(names.begin(), names.end(), effect) == names.end() || effect == "muscles")
+  if (const EffectKind* kind = find_kind(effect); !kind || kind->always)
     throw InputError(fmt::format("{}: '{}' is no effect; did you mean {}?", source, effect,
-                                 nearest_name(effect, names)));
+                                 nearest_name(effect, effect_names())));
   if (is_whole) return ParameterName::parse(name);
   static const std::map<std::string, std::string> first = {
       {"jaw_opening", "angle"}, {"gravity", "pitch"}, {"airway_pressure", "pressure"}};

@@ -23,18 +23,31 @@
 namespace genio {
 
 const std::vector<EffectKind>& effect_kinds() {
+  // A line each, so that two additions do not meet.
+  // clang-format off
   static const std::vector<EffectKind> all = {
-      elasticity_kind(),       muscles_kind(),
-      palate_contact_kind(),   jaw_contact_kind(),
-      gravity_kind(),          active_stiffening_kind(),
-      fibre_anisotropy_kind(), material_nonlinearity_kind(),
-      compressibility_kind(),  mucosa_layer_kind(),
-      stiff_region_kind(),     weak_muscle_kind(),
-      extra_muscle_kind(),     force_length_kind(),
-      force_velocity_kind(),   activation_dynamics_kind(),
-      jaw_opening_kind(),      hyoid_mobility_kind(),
-      airway_pressure_kind(),  viscosity_kind(),
+      elasticity_kind(),
+      muscles_kind(),
+      palate_contact_kind(),
+      jaw_contact_kind(),
+      gravity_kind(),
+      active_stiffening_kind(),
+      fibre_anisotropy_kind(),
+      material_nonlinearity_kind(),
+      compressibility_kind(),
+      mucosa_layer_kind(),
+      stiff_region_kind(),
+      weak_muscle_kind(),
+      extra_muscle_kind(),
+      force_length_kind(),
+      force_velocity_kind(),
+      activation_dynamics_kind(),
+      jaw_opening_kind(),
+      hyoid_mobility_kind(),
+      airway_pressure_kind(),
+      viscosity_kind(),
   };
+  // clang-format on
   return all;
 }
 
