@@ -99,8 +99,9 @@ std::string draw_contours(const Discovery& d, const Observations& o) {
   const double size = std::max((axes.x1 - axes.x0) / axes.width, (axes.y1 - axes.y0) / axes.height);
   axes.x1 = axes.x0 + size * axes.width, axes.y1 = axes.y0 + size * axes.height;
   for (size_t i = 0; i < count; ++i) {
+    const size_t row = i / columns;
     const double left = gap + double(i % columns) * (panel + gap);
-    const double top = gap + double(i / columns) * (panel + gap);
+    const double top = gap + double(row) * (panel + gap);
     const Condition& c = o.conditions[d.lines_before[i].condition];
     svg.rect(left, top, panel, panel, {"#ddd"});
     svg.text(left + 8, top + 16, c.name + (c.heldout ? ", held out" : ""), 12, "start", "#444");
