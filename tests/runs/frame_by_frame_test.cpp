@@ -29,15 +29,18 @@ class FrameByFrameRun : public test::PulledTongue {
 TEST_F(FrameByFrameRun, TwoProcessesAnswerEveryFrameOnceAsOneDoesItsOwn) {
   const auto all = frames(2);
   AnswerRecords one, two;
-  for (auto [processes, answers] : {std::pair{1, &one}, {2, &two}})
+  const auto run = [&](int processes, AnswerRecords& answers) {
     answer_in_processes(m, all, {}, {}, processes, message, [&](const std::string& line) {
       const auto r = read_record(line).value();
-      EXPECT_TRUE(answers->emplace(r.frame, r).second);
+      EXPECT_TRUE(answers.emplace(r.frame, r).second);
     });
+  };
+  run(1, one);
+  run(2, two);
   ASSERT_EQ(one.size(), 2u);
   ASSERT_EQ(two.size(), 2u);
-  EXPECT_EQ(one.at(1).forces_N,
-            two.at(1).forces_N);  // the second starts elsewhere in two processes
+  // The second starts elsewhere in two processes.
+  EXPECT_EQ(one.at(1).forces_N, two.at(1).forces_N);
 }
 
 TEST_F(FrameByFrameRun, AResumedRunGoesOnWhereTheFrameBeforeEnded) {
