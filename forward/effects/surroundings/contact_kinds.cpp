@@ -15,7 +15,8 @@ constexpr double deepest_overlap = 2e-3;  // at rest [m]
 
 /// With the surface of a bone ("palate").
 Effect contact(Settings& s, const Anatomy& a, const std::string& bone,
-               const std::optional<TriangleSurface>& surface, std::optional<Vec3> hinge = {}) {
+               const std::optional<TriangleSurface>& surface,
+               const std::optional<Vec3>& hinge = {}) {
   const ModelDescription& d = a.description;
   const std::string name = bone + "_contact";
   if (!surface)
