@@ -2,8 +2,8 @@
 
 namespace genio {
 
-Viscosity::Viscosity(NodeMatrix mass, double alpha, double beta)
-    : mass_(std::move(mass)),
+Viscosity::Viscosity(const NodeMatrix& mass, double alpha, double beta)
+    : mass_(mass),
       info_{{{.name = "alpha", .unit = "1/s", .value = alpha, .lower = 0, .upper = 1e4},
              {.name = "beta", .unit = "s", .value = beta, .lower = 0, .upper = 10}}} {}
 

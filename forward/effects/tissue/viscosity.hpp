@@ -12,7 +12,7 @@ namespace genio {
 /// beta for the part with K. Parameters: alpha [1/s], beta [s].
 class Viscosity final : public Dissipation {
  public:
-  Viscosity(NodeMatrix mass, double alpha, double beta);
+  Viscosity(const NodeMatrix& mass, double alpha, double beta);
 
   std::string_view name() const override { return "viscosity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
