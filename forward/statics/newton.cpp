@@ -23,7 +23,7 @@ double Newton::rounding(const Positions& x) const {
   return epsilon * ws_.reduced.lower().diagonal().cwiseProduct(model_.dofs.pick(x)).norm();
 }
 
-MixedState Newton::at(const Positions& x, std::optional<Vector> pressure) const {
+MixedState Newton::at(const Positions& x, const std::optional<Vector>& pressure) const {
   MixedState s{x, {}, {}, {}, {}, std::numeric_limits<double>::infinity(), potential(x)};
   if (!std::isfinite(s.energy)) return s;
   s.bulk = bulk(model_, x, p_);

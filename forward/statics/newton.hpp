@@ -39,7 +39,7 @@ class Newton {
 
   /// At the shape x with the given pressures, or its own. The energy is infinite where tissue is
   /// inverted.
-  MixedState at(const Positions& x, std::optional<Vector> pressure = {}) const;
+  MixedState at(const Positions& x, const std::optional<Vector>& pressure = {}) const;
 
   /// The tangent for a step from `state`, itself reached from `previous` by following `step`.
   void assemble(const MixedState& state, const Positions& previous, const Vector& step);
