@@ -5,11 +5,11 @@
 namespace genio {
 namespace {
 
-constexpr double range = 4;  // standard deviations that a head pose may reach
+constexpr double pose_range = 4;  // standard deviations that a head pose may reach
 
 Unknown unknown(const char* name, PoseAxis axis, double sd, const char* unit) {
   return {.name = name,
-          .scale = range * sd,
+          .scale = pose_range * sd,
           .parameters = {},
           .shares = {},
           .kind = Unknown::Kind::pose,
@@ -32,7 +32,7 @@ std::vector<Unknown> HeadPoseTerm::unknowns(const Model&) const {
 
 void HeadPoseTerm::add_rows(const std::vector<Unknown>& unknowns, PriorRows& rows) const {
   for (size_t i = 0; i < unknowns.size(); ++i)
-    if (unknowns[i].kind == Unknown::Kind::pose) rows.add(Eigen::Index(i), 0, 1 / range);
+    if (unknowns[i].kind == Unknown::Kind::pose) rows.add(Eigen::Index(i), 0, 1 / pose_range);
 }
 
 HeadPoseTerm HeadPoseTerm::read(const TomlReader& file) {

@@ -5,7 +5,7 @@
 namespace genio {
 namespace {
 
-constexpr double range = 20;  // standard deviations that a parameter may reach
+constexpr double parameter_range = 20;  // standard deviations that a parameter may reach
 
 Unknown unknown(const Model& model, const std::string& name, const ParameterPrior& belief) {
   need_positive(belief.sd, name.c_str());
@@ -26,7 +26,8 @@ Unknown unknown(const Model& model, const std::string& name, const ParameterPrio
             .ratio = belief.ratio};
   const double least = u.z_of(lower), most = u.z_of(upper), mean = u.z_of(belief.mean);
   // Bounds may be far beyond what is believed; the unit is what may be reached.
-  u.scale = std::min(std::max(std::abs(least), std::abs(most)), std::abs(mean) + range * belief.sd);
+  u.scale = std::min(std::max(std::abs(least), std::abs(most)),
+                     std::abs(mean) + parameter_range * belief.sd);
   u.lower = std::max(-1.0, least / u.scale), u.upper = std::min(1.0, most / u.scale);
   return u;
 }
