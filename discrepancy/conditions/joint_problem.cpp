@@ -171,7 +171,7 @@ std::optional<double> JointProblem::value(const Vector& u) {
   return 0.5 * whitened(stacked(r)).squaredNorm() + prior_value(u);
 }
 
-std::unique_ptr<LocalModel> JointProblem::local(const Vector& u) {
+std::shared_ptr<LocalModel> JointProblem::local(const Vector& u) {
   std::vector<const ObjectivePoint*> points;
   Eigen::Index rows = 0;
   for (size_t k = 0; k < parts_.size(); ++k) {

@@ -36,7 +36,7 @@ class JointProblem final : public MisfitProblem {
   const Vector& lower() const override { return lower_; }
   const Vector& upper() const override { return upper_; }
   std::optional<double> value(const Vector& u) override;
-  std::unique_ptr<LocalModel> local(const Vector& u) override;
+  std::shared_ptr<LocalModel> local(const Vector& u) override;
   bool stopped() override { return false; }
   const std::string& last_failure() const override { return failure_; }
   double rms() const override { return rms_; }

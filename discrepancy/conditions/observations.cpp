@@ -148,17 +148,15 @@ Condition read_condition(const TomlReader& file, const toml::node& node, const M
 ParameterName effect_parameter(const std::string& name, const std::string& source) {
   const bool is_whole = name.find('.') != std::string::npos;
   const std::string effect = is_whole ? ParameterName::parse(name).effect : name;
-  if (const EffectKind* kind = find_kind(effect); !kind || kind->always)
+  const EffectKind* kind = find_kind(effect);
+  if (!kind || kind->always)
     throw InputError(fmt::format("{}: '{}' is no effect; did you mean {}?", source, effect,
                                  nearest_name(effect, effect_names())));
   if (is_whole) return ParameterName::parse(name);
-  static const std::map<std::string, std::string> first = {
-      {"jaw_opening", "angle"}, {"gravity", "pitch"}, {"airway_pressure", "pressure"}};
-  const auto known = first.find(effect);
-  if (known == first.end())
+  if (kind->main.empty())
     throw InputError(
         fmt::format("{}: '{}' has several parameters; write {}.PARAMETER", source, name, name));
-  return {effect, known->second};
+  return {effect, kind->main};
 }
 
 ModelDescription with_parameter(ModelDescription d, const ParameterName& name, double value) {

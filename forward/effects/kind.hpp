@@ -24,6 +24,9 @@ struct EffectKind {
   std::string name;  ///< of its table in a model file, [effect.NAME]
   /// Makes it from its table. Throws InputError naming what is wrong.
   Effect (*make)(Settings&, const Anatomy&);
+  /// The parameter that the effect's name alone means, of an effect with a number of its own per
+  /// condition ("jaw_opening" is its angle); empty: the parameter must be named.
+  std::string main = {};
   /// True where every model has it, after all others and without a table.
   bool always = false;
   /// True where it acts from outside the tongue, so that its forces need not balance.

@@ -59,12 +59,13 @@ Vector static_start(const Model& model, const std::vector<MotionFrame>& frames, 
 }
 
 /// Posterior of all knots together, within bounds, widened by the model's error.
-void summarise(MotionProblem& problem, LocalProblem& local, const Vector& u,
-               const ModelError& error, MotionAnswer& answer) {
+void summarise(MotionProblem& problem, const Vector& u, const ModelError& error,
+               MotionAnswer& answer) {
   const auto n = Eigen::Index(problem.unknowns().size());
   std::vector<Eigen::Index> open;
   for (Eigen::Index i = 0; i < u.size(); ++i)
     if (problem.lower()[i] < problem.upper()[i]) open.push_back(i);
+  LocalProblem& local = *problem.local_problem(u);
   const Matrix h = Eigen::SparseMatrix<double>(local.hessian(u).selfadjointView<Eigen::Lower>());
   Vector slope;
   local.gradient(u, slope);
@@ -175,7 +176,7 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
   answer.message = r.message;
   if (r.converged) {
     // A trial may have been the latest motion.
-    const bool again = problem.value(r.u).has_value();
+    const bool again = problem.value(r.u) && problem.local_problem(r.u);
     answer.status = again ? InferStatus::converged : InferStatus::failed;
     if (again) {
       answer.trajectory = problem.trajectory(), answer.rms = problem.rms();
@@ -183,7 +184,7 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
         answer.frames.push_back(
             {own[k].time_s, shape_at(answer.trajectory, own[k].time_s), problem.residuals()[k]});
       answer.unknowns = by_point(r.u, n);
-      summarise(problem, dynamic_cast<LocalProblem&>(*r.local), r.u, o.infer.model_error, answer);
+      summarise(problem, r.u, o.infer.model_error, answer);
     } else {
       answer.message = problem.last_failure();
     }

@@ -95,7 +95,15 @@ std::optional<double> MotionProblem::value(const Vector& u) {
   return value;
 }
 
-std::unique_ptr<LocalModel> MotionProblem::local(const Vector& u) {
+std::shared_ptr<LocalModel> MotionProblem::local(const Vector& u) {
+  auto local = local_problem(u);
+  if (local && options_.checkpoint)
+    options_.checkpoint(by_point(u, Eigen::Index(unknowns_.size())));
+  return local;
+}
+
+std::shared_ptr<LocalProblem> MotionProblem::local_problem(const Vector& u) {
+  if (local_ && local_->anchor() == u) return local_;
   if (!value(u)) return nullptr;
   const auto n = Eigen::Index(unknowns_.size());
   Matrix first;
@@ -128,8 +136,8 @@ std::unique_ptr<LocalModel> MotionProblem::local(const Vector& u) {
                         positions[k](Eigen::all, moving), HeadPose{},
                         Matrix::Zero(3, Eigen::Index(moving.size())), moving);
   }
-  if (options_.checkpoint) options_.checkpoint(by_point(u, n));
-  return std::make_unique<LocalProblem>(std::move(shapes), prior_.all, u);
+  local_ = std::make_shared<LocalProblem>(std::move(shapes), prior_.all, u);
+  return local_;
 }
 
 }  // namespace genio

@@ -31,7 +31,9 @@ class MotionProblem final : public MisfitProblem {
   const Vector& lower() const override { return prior_.lower; }
   const Vector& upper() const override { return prior_.upper; }
   std::optional<double> value(const Vector& u) override;
-  std::unique_ptr<LocalModel> local(const Vector& u) override;
+  std::shared_ptr<LocalModel> local(const Vector& u) override;
+  /// The same in full; kept for the latest point where there is one.
+  std::shared_ptr<LocalProblem> local_problem(const Vector& u);
   bool stopped() override { return clock_.stopped(); }
   const std::string& last_failure() const override { return failure_; }
   double rms() const override;
@@ -56,6 +58,7 @@ class MotionProblem final : public MisfitProblem {
   Trajectory trajectory_;
   std::vector<Residuals> residuals_;
   double value_ = 0;
+  std::shared_ptr<LocalProblem> local_;  // the latest there was
   int simulations_ = 0;
   WorkClock clock_;
   std::string failure_;

@@ -65,7 +65,7 @@ std::optional<double> SequenceProblem::value(const Vector& u) {
   return sum;
 }
 
-std::unique_ptr<LocalModel> SequenceProblem::local(const Vector& u) {
+std::shared_ptr<LocalModel> SequenceProblem::local(const Vector& u) {
   std::vector<std::optional<LocalShape>> found(frames_.size());
   if (!each([&](size_t k) {
         found[k] = frames_[k]->objective.local_shape(unknowns_of(u, k), int(count_) * int(k));

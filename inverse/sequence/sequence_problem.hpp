@@ -39,7 +39,7 @@ class SequenceProblem final : public MisfitProblem {
   const Vector& lower() const override { return prior_.lower; }
   const Vector& upper() const override { return prior_.upper; }
   std::optional<double> value(const Vector& u) override;
-  std::unique_ptr<LocalModel> local(const Vector& u) override;
+  std::shared_ptr<LocalModel> local(const Vector& u) override;
   bool stopped() override;
   const std::string& last_failure() const override { return failure_; }
   double rms() const override;

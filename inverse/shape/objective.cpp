@@ -171,7 +171,7 @@ std::optional<LocalShape> Objective::local_shape(const Vector& activations, int 
   return shape;
 }
 
-std::unique_ptr<LocalModel> Objective::local(const Vector& activations) {
+std::shared_ptr<LocalModel> Objective::local(const Vector& activations) {
   auto shape = local_shape(activations);
   if (!shape) return nullptr;
   std::vector<LocalShape> shapes;

@@ -55,7 +55,7 @@ class Objective final : public MisfitProblem {
   const Vector& lower() const override { return prior_.lower; }
   const Vector& upper() const override { return prior_.upper; }
   std::optional<double> value(const Vector& activations) override;
-  std::unique_ptr<LocalModel> local(const Vector& activations) override;
+  std::shared_ptr<LocalModel> local(const Vector& activations) override;
   bool stopped() override { return clock_.stopped(); }
   const std::string& last_failure() const override { return failure_; }
   double rms() const override { return have_last_ ? last_.residuals.rms : 0; }

@@ -52,7 +52,7 @@ DescentResult descend(MisfitProblem& problem, const Vector& start, const Descent
     return result;
   };
   auto value = problem.value(start);
-  auto& local = result.local;
+  std::shared_ptr<LocalModel> local;
   if (value) local = problem.local(start);
   if (!local) return failed(fmt::format("no start: {}", problem.last_failure()));
   result.u = start, result.value = *value;
@@ -84,7 +84,7 @@ DescentResult descend(MisfitProblem& problem, const Vector& start, const Descent
     value = problem.value(u);
     if (problem.stopped()) return result;
     const double gain = value ? result.value - *value : 0;
-    std::unique_ptr<LocalModel> next;
+    std::shared_ptr<LocalModel> next;
     if (gain > 1e-3 * promise) next = problem.local(u);
     const double length = step.cwiseAbs().maxCoeff();
     if (!value || gain < 0.25 * promise) trust = value ? 0.5 * length : 0.25 * length;

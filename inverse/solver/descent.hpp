@@ -20,7 +20,7 @@ class MisfitProblem {
   /// The objective; empty where it cannot be evaluated.
   virtual std::optional<double> value(const Vector& u) = 0;
   /// Its local problem at a point whose value is known; null where there is none.
-  virtual std::unique_ptr<LocalModel> local(const Vector& u) = 0;
+  virtual std::shared_ptr<LocalModel> local(const Vector& u) = 0;
   /// True once the time is up or the requester gave up.
   virtual bool stopped() = 0;
   /// The reason of the latest failure.
@@ -45,9 +45,8 @@ struct DescentResult {
   std::string message;  ///< the reason where it did not
   Vector u;             ///< best point; empty where there is none
   double value = 0;
-  std::shared_ptr<LocalModel> local;  ///< at u
-  int iterations = 0;                 ///< local problems
-  int solver_iterations = 0;          ///< Ipopt's in all of them
+  int iterations = 0;         ///< local problems
+  int solver_iterations = 0;  ///< Ipopt's in all of them
 };
 
 /// Local problems one after another, each minimised by Ipopt within bounds and a trust region,

@@ -77,6 +77,7 @@ EffectKind jaw_opening_kind() {
             return {.potential = std::make_shared<JawOpening>(nodes_with(a, Support::led),
                                                               a.description.mesh, motion)};
           },
+          .main = "angle",
           .external = true,
           .support = [](Support s) { return s == Support::fixed ? Support::led : s; },
           .belief = {.parameters = {{.parameter = "angle", .typical = 4},

@@ -127,6 +127,7 @@ EffectKind airway_pressure_kind() {
             return {.potential = std::make_shared<AirwayPressure>(
                         mesh, a.supports, airway_faces(mesh, a.supports), s.take("pressure", 0))};
           },
+          .main = "pressure",
           .external = true,
           .belief = {.parameters = {{.parameter = "pressure", .typical = 400}}},
           .sample = {{"pressure", 300}},

@@ -81,6 +81,7 @@ EffectKind gravity_kind() {
             const Vec3 g = s.take_point("", Vec3(0, 0, -9.81));
             return {.potential = std::make_shared<Gravity>(a.mass, g, s.take("pitch", 0))};
           },
+          .main = "pitch",
           .external = true,
           // The box about what is plausible; more is for pitch.
           .belief = {.parameters = {{.parameter = "x", .typical = 9.81, .least = -4, .most = 20},
