@@ -15,7 +15,7 @@ namespace {
 
 constexpr double first_pass = 0.5;  // its part of the work, about
 
-struct Told {
+struct Reporter {
   std::function<void(double, const std::string&)> progress;
   void operator()(double part, const std::string& what) const {
     if (progress) progress(part, what);
@@ -33,7 +33,7 @@ std::vector<size_t> groups_of(size_t frames, int threads) {
 /// Frame by frame, each near the one before.
 std::vector<Answer> walk_through(const Model& model, const std::vector<SequenceFrame>& frames,
                                  const Prior& prior, InferWorkspace& ws, const SequenceOptions& o,
-                                 const std::vector<size_t>& groups, const Told& told) {
+                                 const std::vector<size_t>& groups, const Reporter& report) {
   std::vector<Answer> answers(frames.size());
   std::mutex turn;
   size_t done = 0;
@@ -51,7 +51,7 @@ std::vector<Answer> walk_through(const Model& model, const std::vector<SequenceF
         last = frames[k].time_s;
       }
       const std::lock_guard lock(turn);
-      told(first_pass * double(++done) / double(frames.size()), "frame by frame");
+      report(first_pass * double(++done) / double(frames.size()), "frame by frame");
     }
   };
   std::vector<std::jthread> threads;
@@ -155,7 +155,7 @@ void summarise(std::vector<std::unique_ptr<JointFrame>>& frames, const SequenceP
 std::vector<Answer> infer_sequence(const Model& model, const std::vector<SequenceFrame>& all,
                                    const Prior& prior, InferWorkspace& ws,
                                    const SequenceOptions& o) {
-  const Told told{o.progress};
+  const Reporter report{o.progress};
   std::vector<Answer> result(all.size());
   std::vector<SequenceFrame> frames;
   std::vector<size_t> place;
@@ -176,7 +176,7 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
   auto groups = groups_of(frames.size(), o.threads);
   std::vector<Answer> answers(frames.size());
   const bool known = fits(o.known, frames.size(), n);
-  if (!known) answers = walk_through(model, frames, prior, ws, how, groups, told);
+  if (!known) answers = walk_through(model, frames, prior, ws, how, groups, report);
   // Frames without a first answer have no place in the joint problem.
   std::vector<size_t> kept;
   for (size_t k = 0; k < frames.size(); ++k)
@@ -212,7 +212,7 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
   };
   DescentOptions descent{how.infer.max_iterations, how.infer.tolerance * double(kept.size()), {}};
   descent.progress = [&](int step, double) {
-    told(1 - (1 - first_pass) * std::pow(0.6, step), "all frames together");
+    report(1 - (1 - first_pass) * std::pow(0.6, step), "all frames together");
   };
   const DescentResult r =
       descend(problem, start.cwiseMax(problem.lower()).cwiseMin(problem.upper()), descent);
@@ -231,7 +231,7 @@ std::vector<Answer> infer_sequence(const Model& model, const std::vector<Sequenc
     a.wall_s = seconds / double(kept.size());
     result[place[kept[j]]] = half ? whole_answer(ws.mirror(), std::move(a)) : std::move(a);
   }
-  told(1, "done");
+  report(1, "done");
   return result;
 }
 
