@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "inverse/recording/formats/format_list.hpp"
+#include "inverse/recording/format_list.hpp"
 
 namespace genio::cli {
 namespace {

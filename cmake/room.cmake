@@ -61,7 +61,7 @@ endfunction()
 # genio_room(forward
 #   ROOMS base geometry ...       sub-rooms, lowest first: a file may include its own and lower ones
 #   HEADERS base/types ...        what other rooms may include; these are installed
-#   SINGLY recording/formats ...  sub-rooms whose files define alike names (genio_grouped)
+#   SINGLY recording/curves ...   sub-rooms whose files define alike names (genio_grouped)
 #   PUBLIC ... PRIVATE ...        libraries and rooms it links
 #   INTERNAL)                     not installed
 # Sources are every .cpp of the sub-rooms (of the room's own folder where there are none), so that a

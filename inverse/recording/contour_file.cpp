@@ -1,6 +1,6 @@
 #include "inverse/recording/contour_file.hpp"
 
-#include "inverse/recording/formats/format_list.hpp"
+#include "inverse/recording/format_list.hpp"
 
 namespace genio {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "inverse/recording/formats/format_list.hpp"
+#include "inverse/recording/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
 
 namespace genio {

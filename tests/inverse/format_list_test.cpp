@@ -1,6 +1,6 @@
 // Each format of the list is known by its own example; a file of none is asked about.
 
-#include "inverse/recording/formats/format_list.hpp"
+#include "inverse/recording/format_list.hpp"
 
 #include <set>
 

@@ -1,6 +1,7 @@
 #pragma once
 // What there is to know of a format of contour files. Each format is one pair of files in
-// inverse/recording/formats with a function that gives its row; format_list.cpp lists them.
+// inverse/recording/{curves,sensors,scans} with a function that gives its row;
+// recording/format_list.cpp lists them.
 
 #include <functional>
 #include <optional>

@@ -23,7 +23,8 @@ struct ContourFrame {
   int number = 0;     ///< data row or sample from 1, or the file's own frame number
   std::string label;  ///< prompt, word or label, where given
   double time_s = 0;
-  std::string note;  ///< why it has no points, if it has none
+  std::string recording, speaker;  ///< which take, and whose, where given
+  std::string note;                ///< why it has no points, or which were left out
   std::vector<ContourPoint> points;
 };
 
@@ -49,6 +50,11 @@ struct ReadOptions {
   std::string up;      ///< up or down: where y grows to; empty: the format's, or by the arch
   /// Sensor of a flesh-point recording, by number or name, to what it is stuck to: "tip", ...
   std::map<std::string, std::string> sensors;
+  /// Columns of a table that no format knows: "x", "y", "frame", "time", "label", "likelihood",
+  /// "recording", "speaker" to the column's title, or its number from 1.
+  std::map<std::string, std::string> columns;
+  /// The spline to take where a file has several; empty: the only one that is named for the tongue.
+  std::string spline;
   double rate_hz = 0;  ///< of samples, where the file does not tell
 };
 

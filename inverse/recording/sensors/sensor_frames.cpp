@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/sensor_frames.hpp"
+#include "inverse/recording/sensors/sensor_frames.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/aaa.hpp"
+#include "inverse/recording/curves/aaa.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "inverse/recording/base/table_text.hpp"
-#include "inverse/recording/formats/aaa_polar.hpp"
+#include "inverse/recording/curves/aaa_polar.hpp"
 
 namespace genio {
 namespace {

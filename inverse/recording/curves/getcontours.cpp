@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/getcontours.hpp"
+#include "inverse/recording/curves/getcontours.hpp"
 
 #include <fmt/format.h>
 

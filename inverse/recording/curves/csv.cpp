@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/csv.hpp"
+#include "inverse/recording/curves/csv.hpp"
 
 #include <fmt/format.h>
 

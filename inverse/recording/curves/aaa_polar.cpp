@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/aaa_polar.hpp"
+#include "inverse/recording/curves/aaa_polar.hpp"
 
 #include <fmt/format.h>
 

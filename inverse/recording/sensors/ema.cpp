@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/ema.hpp"
+#include "inverse/recording/sensors/ema.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <limits>
 
 #include "inverse/recording/base/table_text.hpp"
-#include "inverse/recording/formats/sensor_frames.hpp"
-#include "inverse/recording/formats/ssff.hpp"
+#include "inverse/recording/sensors/sensor_frames.hpp"
+#include "inverse/recording/sensors/ssff.hpp"
 
 namespace genio {
 namespace {

@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/scan.hpp"
+#include "inverse/recording/scans/scan.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/ssff.hpp"
+#include "inverse/recording/sensors/ssff.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-#include "inverse/recording/formats/sensor_frames.hpp"
+#include "inverse/recording/sensors/sensor_frames.hpp"
 
 namespace genio {
 namespace {

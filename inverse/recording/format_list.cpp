@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/format_list.hpp"
+#include "inverse/recording/format_list.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 
 #include "forward/base/nearest_name.hpp"
 #include "inverse/recording/base/table_text.hpp"
-#include "inverse/recording/formats/aaa.hpp"
-#include "inverse/recording/formats/csv.hpp"
-#include "inverse/recording/formats/edgetrak.hpp"
-#include "inverse/recording/formats/ema.hpp"
-#include "inverse/recording/formats/getcontours.hpp"
-#include "inverse/recording/formats/scan.hpp"
+#include "inverse/recording/curves/aaa.hpp"
+#include "inverse/recording/curves/csv.hpp"
+#include "inverse/recording/curves/edgetrak.hpp"
+#include "inverse/recording/curves/getcontours.hpp"
+#include "inverse/recording/scans/scan.hpp"
+#include "inverse/recording/sensors/ema.hpp"
 
 namespace genio {
 namespace {

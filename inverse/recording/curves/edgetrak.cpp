@@ -1,4 +1,4 @@
-#include "inverse/recording/formats/edgetrak.hpp"
+#include "inverse/recording/curves/edgetrak.hpp"
 
 #include <fmt/format.h>
 
