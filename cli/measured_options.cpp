@@ -25,12 +25,16 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--mm-per-px", o.read.mm_per_px, "Size of a pixel", {.positive = true});
   options.add("--facing", o.read.facing, "Where the face looks in the file: left or right");
   options.add("--y-grows", o.read.up, "up, or down as in images");
+  options.add("--axes", o.read.axes,
+              "EMA: the axis that runs back along the head and the one that runs up, as in -x+z");
   options.add("--sensors", o.sensors, "EMA: what each is stuck to, 3=dorsum,5=tip",
               {.separator = ','});
   options.add("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say",
               {.positive = true});
   options.add("--palate", o.palate, "Palate trace of the same session");
   options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there");
+  options.flag("--force-registration", o.force,
+               "Answer although the registration fails its test; every result says so");
   options.flag("--registered", o.registered, "The file is in the model's frame already");
   options.add("--frames", o.frames, "A-B, counted from 1");
   options.add("--noise-mm", o.noise_mm,

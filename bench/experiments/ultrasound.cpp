@@ -9,6 +9,7 @@
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "inverse/recording/frame_target.hpp"
+#include "inverse/recording/session.hpp"
 #include "inverse/search/multi_start.hpp"
 
 namespace genio::bench {
@@ -54,7 +55,11 @@ Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& t
 
 Json run_ultrasound(const BenchOptions& o, const Progress& progress) {
   const Model m = read_model(o.model);
-  const auto [file, r] = register_file(m, read_contours(o.target), o.palate);
+  SessionFile target = read_session_file(o.target, {});
+  const SessionFile palate = read_palate(o.palate, {}, target);
+  const AlignedRecording aligned = align(m, std::move(target), palate, {});
+  const ContourFile& file = aligned.file;
+  const Registration& r = aligned.registration;
   InferWorkspace ws(m);
   Json frames = Json::array();
   std::vector<double> rms, seconds;

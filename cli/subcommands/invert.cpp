@@ -120,11 +120,12 @@ void write_movement(const Model& model, const MotionAnswer& a, const std::string
 
 /// Hands the message() of each frame that is not known to `collect`.
 void answer(const Model& model, const std::vector<Frame>& frames, const FrameOptions& options,
-            const AnswerRecords& known, const InvertOptions& o, const Send& collect) {
+            const AnswerRecords& known, const RegistrationRecord& registration,
+            const InvertOptions& o, const Send& collect) {
   const std::vector<Frame> open = open_frames(frames, known);
   const auto to_message = [&](const ContourFrame& frame, const AnswerView& view,
                               const Positions& shape) {
-    return message(model, frame, view, shape, o.out);
+    return message(model, frame, with_registration(view, registration), shape, o.out);
   };
   if (!o.smooth && !o.dynamic)
     return answer_in_processes(model, open, {options, o.sequence}, known, o.threads, to_message,
@@ -143,13 +144,14 @@ void answer(const Model& model, const std::vector<Frame>& frames, const FrameOpt
   write_movement(model, a, o.out);
 }
 
-int run(const InvertOptions& o) {
+int run_checked(const InvertOptions& o) {
   check(o);
   const Model model = read_model(o.model);
   const Measured measured = read_measured(
       o.measured, [&]() -> const Model& { return model; }, print_line);
   const std::vector<Frame> frames = frames_of(model, measured, o);
-  const FrameOptions options = frame_options(model, o);
+  FrameOptions options = frame_options(model, o);
+  if (!options.prior.head_pose) options.prior.head_pose = measured.head_pose;
   std::optional<ResultLog> log;
   if (!o.out.empty()) log.emplace(o.out, question(o, measured.noise), o.resume);
   const AnswerRecords known = log ? log->known() : AnswerRecords();
@@ -158,7 +160,7 @@ int run(const InvertOptions& o) {
                frames.size());
   AnswerRecords answers = known;
   ProgressLine progress(int(known.size()), int(frames.size()));
-  answer(model, frames, options, known, o, [&](const std::string& text) {
+  answer(model, frames, options, known, measured.registration, o, [&](const std::string& text) {
     const size_t end = text.find('\n');
     const AnswerRecord record = read_record(text.substr(0, end)).value();
     if (log) log->add(record);
@@ -173,6 +175,16 @@ int run(const InvertOptions& o) {
                      [](const auto& a) { return a.second.converged(); })
              ? done
              : no_answer;
+}
+
+/// A recording that cannot be laid beside the model gives no forces, but its registration.
+int run(const InvertOptions& o) {
+  try {
+    return run_checked(o);
+  } catch (const RegistrationFailed& e) {
+    if (o.json) fmt::print("{}\n", no_forces_json(e.what(), e.record));
+    throw;
+  }
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ int run_request(const RequestOptions& o) {
     if (!reply)
       throw std::runtime_error(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
                                            choose_url(o.url), o.timeout_s));
-    const AnswerView view = view_of(*reply, frame);
+    const AnswerView view = with_registration(view_of(*reply, frame), measured.registration);
     all &= view.status == "converged";
     if (o.json) fmt::print("{}\n", answer_json(view, frame.number));
     else fmt::print("{}\n{}\n", view.title, to_table(view));

@@ -1,6 +1,7 @@
 #include "discrepancy/conditions/observations.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "forward/model/hypothesis.hpp"
 #include "inverse/recording/contour_file.hpp"
 #include "inverse/recording/frame_target.hpp"
+#include "inverse/recording/session.hpp"
 
 namespace genio {
 namespace {
@@ -76,14 +78,21 @@ class ContourFiles {
   };
   const Read& operator()(const std::string& path) {
     if (const auto known = read_.find(path); known != read_.end()) return known->second;
-    Read r{read_contours(path), {}};
-    if (!r.file.model_frame) {
+    Read r{};
+    SessionFile file = read_session_file(path, {});
+    if (file.file.model_frame) {
+      r.file = std::move(file.file);
+    } else {
       if (palate_.empty())
         throw InputError(path +
                          ": these contours are not in the model's frame; name the palate trace of "
                          "the same session by 'palate' in the observations file");
-      RegisteredFile registered = register_file(model_, std::move(r.file), palate_);
-      r = {std::move(registered.file), registered.registration.transform};
+      const SessionFile palate = read_palate(palate_, {}, file);
+      AlignedRecording aligned = align(model_, std::move(file), palate, {});
+      if (!aligned.judgement.faults.empty())
+        throw InputError(fmt::format("{}: cannot be laid beside the model: {}", path,
+                                     fmt::join(aligned.judgement.faults, "; ")));
+      r = {std::move(aligned.file), aligned.registration.transform};
     }
     return read_.emplace(path, std::move(r)).first->second;
   }

@@ -108,42 +108,11 @@ Target make_target(const Model& model, const ContourFrame& frame, double noise) 
   return target;
 }
 
-RegisteredFile register_file(const Model& model, ContourFile file, const std::string& palate_path,
-                             const ReadOptions& palate_options) {
-  const ContourFile palate_file = read_contours(palate_path, palate_options);
-  std::vector<Vec2> palate;
-  for (const auto& line : midsagittal_points(palate_file)) {
-    palate.insert(palate.end(), line.begin(), line.end());
-    // A trace is one frame; the sweep of a sensor is all of them.
-    if (palate_file.format.content != Content::sensors) break;
-  }
-  if (palate.empty()) throw InputError(palate_path + ": no palate point has a value");
-  Registration as_is = register_by_palate(model, palate, midsagittal_points(file));
-  if (file.facing_known) return {std::move(file), as_is};
-  for (Vec2& q : palate) q[0] = -q[0];
-  ContourFile turned = mirrored(file);
-  const Registration other = register_by_palate(model, palate, midsagittal_points(turned));
-  const bool left = as_is.cost <= other.cost;
-  const auto said = fmt::format("face looks {} (fits the palate better: cost {:.0f}, not {:.0f})",
-                                left ? "left" : "right", std::min(as_is.cost, other.cost),
-                                std::max(as_is.cost, other.cost));
-  RegisteredFile result{std::move(left ? file : turned), left ? as_is : other};
-  result.file.facing_known = true;
-  result.file.remarks.push_back(said);
-  remark_order(result.file);
-  return result;
-}
-
-std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {
-  std::vector<std::vector<Vec2>> result;
-  for (const auto& frame : file.frames) {
-    std::vector<Vec2> line;
-    for (const auto& p : frame.points)
-      if (p.kind != "surface" && p.kind != "volume")
-        line.emplace_back(p.position[0], p.position[2]);
-    if (!line.empty()) result.push_back(std::move(line));
-  }
-  return result;
+Vec3 place_at_rest(const Model& model, const std::string& place) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [node, weight] : flesh(model, {.position = Vec3::Zero(), .kind = place}))
+    sum += weight * model.mesh.nodes[size_t(node)];
+  return sum;
 }
 
 }  // namespace genio

@@ -16,21 +16,8 @@ ContourFrame registered(const Model& model, const ContourFrame& frame, const Sim
 /// Throws InputError naming the point.
 Target make_target(const Model& model, const ContourFrame& frame, double noise);
 
-/// A file laid into the model's frame.
-struct RegisteredFile {
-  ContourFile file;  ///< its points still in the device's frame
-  Registration registration;
-};
-
-/// Registers a file in a device's own axes by the palate trace of the same session, read from
-/// `palate_path`; a sweep of a sensor along the palate is read whole, options.sensors naming it.
-/// Where nobody knows which way the face looks, the way that fits better. Throws InputError naming
-/// that file when it has no palate point.
-RegisteredFile register_file(const Model& model, ContourFile file, const std::string& palate_path,
-                             const ReadOptions& palate_options = {});
-
-/// The points of all frames on the midsagittal line, curves and marked points, (x, z) [m], in the
-/// file's frame.
-std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);
+/// Where a marked point ("tip", "node:919", ...) lies at rest [m]. Throws InputError for a place
+/// that there is not.
+Vec3 place_at_rest(const Model& model, const std::string& place);
 
 }  // namespace genio

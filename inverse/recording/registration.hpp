@@ -19,7 +19,16 @@ struct Registration {
   Similarity transform;
   double palate_rms = 0;  ///< of the palate trace from the model's palate, after fitting [m]
   double cost = 0;        ///< what was minimised: squares in units of their standard deviations
+  /// The scale that the recording says by itself, and by how much that lowers its cost.
+  double free_scale = 1, free_gain = 0;
+  /// How well it is known: of the middle of what was registered [m], and of the tilt [rad].
+  Vec2 shift_sd = Vec2::Zero();
+  double tilt_sd = 0;
 };
+
+/// Root mean square distance of moved points from a line [m].
+double rms_distance(const Similarity& s, const std::vector<Vec2>& points,
+                    const std::vector<Vec2>& line);
 
 /// Rigid motion and scale that lay the palate trace onto the model's midsagittal palate. Along a
 /// smooth arch that leaves a slide, a tilt and the scale nearly free: on real ultrasound two
@@ -29,5 +38,10 @@ struct Registration {
 /// than 5 points.
 Registration register_by_palate(const Model& model, const std::vector<Vec2>& palate_trace,
                                 const std::vector<std::vector<Vec2>>& contours);
+
+/// The same without a palate: the contours alone lie about the rest shape. Scale and tilt are known
+/// by their priors and little else. Throws InputError for fewer than 5 points.
+Registration register_by_contours(const Model& model,
+                                  const std::vector<std::vector<Vec2>>& contours);
 
 }  // namespace genio

@@ -12,9 +12,6 @@
 namespace genio {
 namespace {
 
-constexpr double poor_fit = 3e-3;   // of the palate [m]
-constexpr double poor_scale = 0.4;  // logarithm
-
 /// "7" or "3-9"; empty means all.
 std::pair<int, int> parse_frames(const std::string& text) {
   if (text.empty()) return {1, 1 << 30};
@@ -45,28 +42,80 @@ bool names_sensors(const std::string& format) {
   return format != "auto" && format_named(format).traits.content == Content::sensors;
 }
 
-RegisteredFile registered_by(const Model& model, ContourFile file, const MeasuredOptions& o) {
-  if (o.palate.empty())
-    throw InputError(fmt::format(
-        "{}: is in the device's own frame; give the same session's palate trace with --palate, or "
-        "say --registered where it is in the model's",
-        o.target));
-  ReadOptions palate = o.read;
+/// The file beside the model: by its palate, else by its contours.
+AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredOptions& o,
+                         const ReadOptions& read) {
+  if (o.palate.empty()) return align(model, std::move(target), {}, read);
+  ReadOptions palate = read;
   palate.sensors.clear();
   if (!o.palate_sensor.empty()) palate.sensors[o.palate_sensor] = "palate";
   if (o.palate_sensor.empty() && names_sensors(o.read.format)) palate.format = "auto";
-  RegisteredFile result = register_file(model, std::move(file), o.palate, palate);
-  const Registration& r = result.registration;
-  result.file.remarks.push_back(fmt::format(
-      "registered by the palate: scale {:.3f}, tilt {:.1f} degrees, palate RMS {:.2f} mm",
-      r.transform.scale, r.transform.angle * 180 / std::numbers::pi, 1e3 * r.palate_rms));
-  if (r.palate_rms > poor_fit || std::abs(std::log(r.transform.scale)) > poor_scale)
-    result.file.remarks.push_back(
-        "THE REGISTRATION IS POOR: is the palate of the same session, units and axes as said?");
-  return result;
+  const SessionFile trace = read_palate(o.palate, palate, target);
+  return align(model, std::move(target), trace, read);
+}
+
+std::string text_of(const RegistrationRecord& r) {
+  const Judgement& j = r.judgement;
+  const std::string palate =
+      r.by_palate ? fmt::format(", palate RMS {:.2f} mm", 1e3 * j.palate_rms) : "";
+  return fmt::format(
+      "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}; contours {:.1f} mm from rest",
+      r.by_palate ? "palate" : "contours alone", j.scale, j.tilt * 180 / std::numbers::pi, palate,
+      1e3 * j.from_rest);
+}
+
+/// A file that is in the model's frame by itself, or so the caller says.
+Measured as_given(const Model& model, ContourFile file, const MeasuredOptions& o) {
+  if (!file.facing_known)
+    throw InputError(o.target + ": does not say which way the face looks; give --facing");
+  Measured m;
+  m.registration = {.judgement = judge(model, {}, midsagittal_points(file), false),
+                    .units = file.model_frame ? "mm" : file.units,
+                    .axes = "the model's",
+                    .by_palate = false,
+                    .given = true};
+  m.frames = std::move(file.frames);
+  return m;
+}
+
+Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOptions& o,
+                       const std::function<void(const std::string&)>& remark) {
+  Measured m;
+  m.registration = {.judgement = a.judgement,
+                    .units = a.file.units,
+                    .axes = a.reading.text(a.file.format.content),
+                    .by_palate = !o.palate.empty()};
+  a.file.remarks.push_back(text_of(m.registration));
+  if (o.palate.empty()) {
+    m.head_pose = HeadPosePrior{a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd};
+    a.file.remarks.push_back(fmt::format(
+        "without a palate the head's place is estimated along, within {:.1f} mm and {:.0f} degrees "
+        "(--palate, or --registered where it is known)",
+        1e3 * m.head_pose->shift_sd, m.head_pose->turn_sd * 180 / std::numbers::pi));
+  }
+  for (const std::string& line : a.file.remarks) remark(fmt::format("{}: {}", o.target, line));
+  for (const ContourFrame& frame : a.file.frames)
+    m.frames.push_back(registered(model, frame, a.registration.transform));
+  return m;
+}
+
+/// Ends the work, or only says so where the caller insists.
+void heed(Measured& m, const MeasuredOptions& o,
+          const std::function<void(const std::string&)>& remark) {
+  if (m.registration.judgement.faults.empty()) return;
+  if (!o.force) throw RegistrationFailed(o.target, m.registration);
+  m.registration.forced = true;
+  remark(fmt::format("{}: THE REGISTRATION IS DOUBTFUL: {}", o.target,
+                     faults_text(m.registration.judgement)));
 }
 
 }  // namespace
+
+RegistrationFailed::RegistrationFailed(const std::string& path, RegistrationRecord what)
+    : std::runtime_error(fmt::format("{}: cannot be laid beside the model: {} "
+                                     "(--force-registration answers all the same)",
+                                     path, faults_text(what.judgement))),
+      record(std::move(what)) {}
 
 Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model,
                        const std::function<void(const std::string&)>& remark) {
@@ -75,20 +124,20 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   const auto [first, last] = parse_frames(o.frames);
   ReadOptions read = o.read;
   read.sensors = parsed_sensors(o.sensors);
-  ContourFile file = read_contours(o.target, read);
+  SessionFile target = read_session_file(o.target, read);
+  const FormatTraits format = target.file.format;
   Measured m;
-  std::optional<Similarity> transform;
-  if (!file.model_frame && !o.registered) {
-    RegisteredFile r = registered_by(model(), std::move(file), o);
-    file = std::move(r.file), transform = r.registration.transform;
-  } else if (!file.facing_known) {
-    throw InputError(o.target + ": does not say which way the face looks; give --facing");
+  if (target.file.model_frame || o.registered) {
+    ContourFile file = read_contours(o.target, read);
+    for (const std::string& line : file.remarks) remark(fmt::format("{}: {}", o.target, line));
+    m = as_given(model(), std::move(file), o);
+  } else {
+    m = as_registered(model(), aligned(model(), std::move(target), o, read), o, remark);
   }
-  for (const std::string& line : file.remarks) remark(fmt::format("{}: {}", o.target, line));
-  m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : file.format.noise;
-  for (const ContourFrame& frame : file.frames)
-    if (frame.number >= first && frame.number <= last)
-      m.frames.push_back(transform ? registered(model(), frame, *transform) : frame);
+  heed(m, o, remark);
+  m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : format.noise;
+  std::erase_if(m.frames,
+                [&](const ContourFrame& f) { return f.number < first || f.number > last; });
   if (m.frames.empty())
     throw InputError(fmt::format("--frames {}: {} has no such frame", o.frames, o.target));
   return m;

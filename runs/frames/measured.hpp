@@ -2,11 +2,15 @@
 // Measured contours, read as the user describes them.
 
 #include <functional>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "forward/model/model.hpp"
+#include "inverse/prior/terms/head_pose_prior.hpp"
 #include "inverse/recording/contour_file.hpp"
+#include "runs/frames/registration_record.hpp"
 
 namespace genio {
 
@@ -17,17 +21,28 @@ struct MeasuredOptions {
   std::vector<std::string> sensors;  ///< "5=tip"
   ReadOptions read;
   bool registered = false;  ///< already in the model's frame
+  bool force = false;       ///< answer also on a registration that fails its test
   double noise_mm = 0;
 };
 
 struct Measured {
   std::vector<ContourFrame> frames;  ///< those asked for, in the model's frame
   double noise;                      ///< [m]
+  RegistrationRecord registration;
+  /// How well the head's place is known where no palate tells it.
+  std::optional<HeadPosePrior> head_pose;
+};
+
+/// A recording that cannot be laid beside the model, with the reasons and what to try.
+struct RegistrationFailed : std::runtime_error {
+  explicit RegistrationFailed(const std::string& path, RegistrationRecord what);
+  RegistrationRecord record;
 };
 
 /// Reads, picks the frames and registers by the palate trace where the file is in the device's own
 /// axes, with the model that `model` gives only then. `remark` hears what was taken for granted and
-/// how well that went. Throws InputError naming file, field or option.
+/// how well that went. Throws RegistrationFailed where a registration fails its test and nobody
+/// forces it, and InputError naming file, field or option.
 Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model,
                        const std::function<void(const std::string&)>& remark);
 

@@ -42,6 +42,7 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   j["outliers"] = v.outliers;
   j["ipopt_iterations"] = v.iterations, j["factorizations"] = v.factorizations;
   j["wall_s"] = v.wall_s;
+  if (!v.registration.empty()) j["registration"] = nlohmann::json::parse(v.registration);
   return j;
 }
 

@@ -1,9 +1,6 @@
 // Every spline format gives back the contour that was written in it, and says what it took for
 // granted.
 
-#include "forward/model/build_model.hpp"
-#include "inverse/recording/frame_target.hpp"
-#include "tests/forward/small_model.hpp"
 #include "tests/inverse/formats_fixture.hpp"
 
 namespace genio {
@@ -100,23 +97,6 @@ TEST_F(Formats, AaaPolarBlocks) {
   EXPECT_EQ(f.frames[0].label, "word");
   EXPECT_DOUBLE_EQ(f.frames[1].time_s, 1.5);
   EXPECT_TRUE(f.facing_known);
-}
-
-TEST_F(Formats, ThePalateTellsWhichWayTheFaceLooks) {
-  const Model m = read_model(test::generic_model());
-  const auto cut = midsagittal_cut(*m.palate).front();
-  std::string palate = "frame,point,x_mm,z_mm\n";
-  for (size_t k = cut.size() / 5; k < cut.size() - cut.size() / 5; ++k)
-    palate += fmt::format("1,{},{:.4f},{:.4f}\n", k, 1e3 * cut[k][0], 1e3 * cut[k][1]);
-  const auto palate_path = write("palate.csv", palate);
-  std::string text;
-  for (const Vec2& q : TongueLine(m).sample(m.rest, 30))
-    text += fmt::format("{:.4f},{:.4f}\n", 1e3 * q[0], 1e3 * q[1]);
-  ContourFile file = read_contours(write("t.csv", text));
-  EXPECT_FALSE(file.facing_known);
-  const auto r = register_file(m, file, palate_path);
-  EXPECT_TRUE(says(r.file, "face looks left"));
-  EXPECT_LT(r.registration.palate_rms, 1e-3);
 }
 
 }  // namespace

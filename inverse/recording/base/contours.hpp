@@ -48,6 +48,7 @@ struct ReadOptions {
   double mm_per_px = 0;
   std::string facing;  ///< left (x grows backwards) or right; empty: the format's, or unknown
   std::string up;      ///< up or down: where y grows to; empty: the format's, or by the arch
+  std::string axes;    ///< of sensors: which run back and up, as in -x+z; empty: found
   /// Sensor of a flesh-point recording, by number or name, to what it is stuck to: "tip", ...
   std::map<std::string, std::string> sensors;
   /// Columns of a table that no format knows: "x", "y", "frame", "time", "label", "likelihood",
@@ -63,6 +64,7 @@ struct ContourFile {
   bool model_frame = true;  ///< false: needs registration (the device's own axes)
   /// False where neither file nor caller tells which way the face looks: the palate has to.
   bool facing_known = true;
+  std::string units;                 ///< of the file's numbers
   std::vector<std::string> remarks;  ///< units, facing, point order: what was taken for granted
   std::vector<ContourFrame> frames;
 };

@@ -42,6 +42,7 @@ double metres(const std::string& unit, const ReadOptions& o, const std::string& 
   throw InputError(fmt::format("--units {}: expected mm, cm, m, um or px", unit));
 }
 
+/// Metres a unit of the file.
 double scale(ContourFile& file, const FileAxes& axes, const std::string& path,
              const ReadOptions& o) {
   const double extent = typical_extent(file);
@@ -60,6 +61,7 @@ double scale(ContourFile& file, const FileAxes& axes, const std::string& path,
   if (extent > 0 && !(extent * size < longest))
     throw InputError(fmt::format("{}: contours of {:.4g} mm in {}; a tongue's have 20 to 200 mm",
                                  path, 1e3 * extent * size, unit));
+  file.units = unit;
   file.remarks.push_back(fmt::format("units {} ({}); contours span {:.0f} mm", unit,
                                      told ? "as said" : "by their extent", 1e3 * extent * size));
   return size;
@@ -115,11 +117,23 @@ void check_choice(const std::string& value, const char* option, const char* a, c
 
 }  // namespace
 
-ContourFile in_model_axes(ContourFile file, const FileAxes& axes, const std::string& path,
-                          const ReadOptions& o) {
+ContourFile in_metres(ContourFile file, const FileAxes& axes, const std::string& path,
+                      const ReadOptions& o) {
+  const double size = scale(file, axes, path, o);
+  for (ContourFrame& frame : file.frames)
+    for (ContourPoint& p : frame.points) p.position *= size, p.sigma *= size;
+  return file;
+}
+
+void check_axes_options(const ReadOptions& o) {
   check_choice(o.facing, "--facing", "left", "right");
   check_choice(o.up, "--y-grows", "up", "down");
-  const double size = scale(file, axes, path, o);
+}
+
+ContourFile in_model_axes(ContourFile file, const FileAxes& axes, const std::string& path,
+                          const ReadOptions& o) {
+  check_axes_options(o);
+  file = in_metres(std::move(file), axes, path, o);
   if (file.format.content == Content::sensors) put_sensors_along(file);
   std::string up = !o.up.empty() ? o.up : axes.up;
   if (up.empty()) {
@@ -138,7 +152,6 @@ ContourFile in_model_axes(ContourFile file, const FileAxes& axes, const std::str
   file.facing_known = !facing.empty();
   for (ContourFrame& frame : file.frames)
     for (ContourPoint& p : frame.points) {
-      p.position *= size, p.sigma *= size;
       if (facing == "right") p.position[0] = -p.position[0];
       if (up == "down") p.position[2] = -p.position[2];
     }

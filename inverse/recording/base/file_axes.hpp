@@ -15,6 +15,14 @@ struct FileAxes {
   std::string units, facing, up;
 };
 
+/// The file in metres, its axes as they are. The caller decides on the units, else the format, else
+/// the extent of its frames. Throws InputError naming `path` where nothing says it.
+ContourFile in_metres(ContourFile file, const FileAxes& axes, const std::string& path,
+                      const ReadOptions& options);
+
+/// Throws InputError for a facing or a direction that there is not.
+void check_axes_options(const ReadOptions& options);
+
 /// The file, whose positions are (along, across, up) in its own units and directions, in metres
 /// with x backwards and z up. The caller decides, else the format, else the points themselves; the
 /// remarks say who did. Throws InputError naming `path` where nothing says it.

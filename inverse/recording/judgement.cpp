@@ -1,0 +1,99 @@
+#include "inverse/recording/judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "forward/effects/surroundings/contact.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double shortest_line = 0.12, longest_line = 0.16;  // of 41 speakers' tongues [m]
+constexpr double slack = 1.15;
+constexpr double telling = 8;          // fall of the cost, in squares of standard deviations
+constexpr double most_tilt = 45;        // [deg]
+constexpr double poor_palate = 3e-3;    // [m]
+constexpr double out_of_reach = 15e-3;  // root mean square from the line at rest [m]
+constexpr double into_bone = 3e-3;      // what noise and another anatomy explain [m]
+constexpr double most_behind = 0.2;     // share of points
+
+double median(std::vector<double> v) {
+  if (v.empty()) return 0;
+  std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+/// The share of points that lie deep in a bone.
+double behind(const Model& model, const std::vector<std::vector<Vec2>>& contours,
+              const Similarity& s) {
+  size_t all = 0, beyond = 0;
+  for (const auto& contour : contours)
+    for (const Vec2& q : contour) {
+      const Vec2 at = s(q);
+      ++all;
+      beyond += std::any_of(model.contacts.begin(), model.contacts.end(), [&](const auto& c) {
+        return c->distance(Vec3(at[0], 0, at[1])) < -into_bone;
+      });
+    }
+  return all > 0 ? double(beyond) / double(all) : 0;
+}
+
+}  // namespace
+
+std::pair<double, double> plausible_scales(const Model& model) {
+  const double line = TongueLine(model).length();
+  return {line / longest_line / slack, line / shortest_line * slack};
+}
+
+Judgement judge(const Model& model, const Registration& r,
+                const std::vector<std::vector<Vec2>>& contours, bool has_palate) {
+  Judgement j{.scale = r.transform.scale,
+              .tilt = r.transform.angle,
+              .shift = r.transform.shift,
+              .palate_rms = r.palate_rms};
+  const std::vector<Vec2> rest = TongueLine(model).sample(model.rest, 60);
+  std::vector<double> distances;
+  for (const auto& contour : contours)
+    distances.push_back(rms_distance(r.transform, contour, rest));
+  j.from_rest = median(distances);
+  j.behind_palate = behind(model, contours, r.transform);
+
+  const auto [least, most] = plausible_scales(model);
+  const auto nobodys = [&, least = least, most = most](double scale) {
+    return !(scale >= least && scale <= most);
+  };
+  // What is believed of the scale holds it near 1; the recording itself may know better.
+  const bool knows = r.free_gain > telling;
+  if (nobodys(j.scale) || (knows && nobodys(r.free_scale)))
+    j.faults.push_back(fmt::format(
+        "its scale is {:.2f}, where speakers have {:.2f} to {:.2f}: are the units as said, and is "
+        "the palate of the same session?",
+        knows ? r.free_scale : j.scale, least, most));
+  if (const double tilt = std::abs(j.tilt) * 180 / std::numbers::pi; tilt > most_tilt)
+    j.faults.push_back(fmt::format(
+        "it is tilted by {:.0f} degrees, and no head is by more than {:.0f}: is up where it was "
+        "said to be (--y-grows, --facing, --axes)?",
+        tilt, most_tilt));
+  if (has_palate && j.palate_rms > poor_palate)
+    j.faults.push_back(
+        fmt::format("the palate trace lies {:.1f} mm (root mean square) from the model's palate, "
+                    "and at most {:.0f} mm will do: is it a trace of the hard palate, of the same "
+                    "session?",
+                    1e3 * j.palate_rms, 1e3 * poor_palate));
+  if (j.behind_palate > most_behind)
+    j.faults.push_back(fmt::format(
+        "{:.0f} % of the contours' points lie behind palate or jaw: are the contours the tongue's, "
+        "and the palate the same speaker's?",
+        100 * j.behind_palate));
+  if (j.from_rest > out_of_reach)
+    j.faults.push_back(
+        fmt::format("the contours lie {:.0f} mm from the tongue at rest, and no tongue moves as a "
+                    "whole by more than {:.0f} mm: are units, axes and frame as said?",
+                    1e3 * j.from_rest, 1e3 * out_of_reach));
+  return j;
+}
+
+}  // namespace genio

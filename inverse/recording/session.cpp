@@ -1,0 +1,192 @@
+#include "inverse/recording/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "inverse/recording/frame_target.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double place_sd = 10e-3;  // of a marked point about its place at rest [m]
+constexpr double alike = 6;         // costs that differ by less do not tell two readings apart
+constexpr double far_better = 12;   // what it takes to doubt what was said
+constexpr double unusual = 15;      // cost of an articulograph whose third axis is not up
+
+struct Candidate {
+  AxesReading reading;
+  bool said = false;  ///< agrees with what the caller and, of curves, the format say
+  Registration registration = {};
+  double cost = 0;  ///< of the registration and of marked points about their places
+};
+
+/// All that a device can have. Sensors in a plane have two coordinates.
+std::vector<AxesReading> all_readings(const ContourFile& file) {
+  std::vector<std::pair<int, int>> pairs = {{0, 2}};
+  if (file.format.content == Content::sensors)
+    pairs = {{0, 2}, {2, 0}, {0, 1}, {1, 0}, {1, 2}, {2, 1}};
+  std::vector<AxesReading> result;
+  for (const auto& [back, up] : pairs)
+    for (const bool back_grows : {true, false})
+      for (const bool up_grows : {true, false}) result.push_back({back, up, back_grows, up_grows});
+  return result;
+}
+
+/// The file's three coordinates spread by so much [m]: root mean squares about their means.
+Vec3 spread(const ContourFile& target, const ContourFile* palate) {
+  Vec3 sum = Vec3::Zero(), squares = Vec3::Zero();
+  double count = 0;
+  for (const ContourFile* file : {&target, palate})
+    if (file)
+      for (const ContourFrame& frame : file->frames)
+        for (const ContourPoint& p : frame.points)
+          if (p.position.allFinite()) {
+            sum += p.position, squares += p.position.cwiseAbs2();
+            ++count;
+          }
+  if (count == 0) return Vec3::Zero();
+  return (squares / count - (sum / count).cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+}
+
+/// The midsagittal plane holds the two coordinates that spread most; where the third spreads nearly
+/// as much as the second, either may be the one across.
+bool in_plane(const AxesReading& r, const Vec3& spread) {
+  const int across = 3 - r.back - r.up;
+  return spread[across] <= 1.5 * std::min(spread[r.back], spread[r.up]);
+}
+
+bool agrees(const AxesReading& r, const FileAxes& format, const ReadOptions& o, Content content) {
+  if (!o.axes.empty()) return r == parse_axes(o.axes);
+  // What an articulograph's format says of its axes is a habit, and the device may be turned.
+  const bool habit = content == Content::sensors;
+  const std::string facing = !o.facing.empty() || habit ? o.facing : format.facing;
+  const std::string up = !o.up.empty() || habit ? o.up : format.up;
+  return (facing.empty() || r.back_grows == (facing == "left")) &&
+         (up.empty() || r.up_grows == (up == "up"));
+}
+
+/// Squared distances of marked points, each in the middle of its places, from where they are glued
+/// at rest, over their variance.
+double place_cost(const Model& model, const ContourFile& file, const Similarity& s) {
+  std::map<std::string, std::pair<Vec2, int>> sums;
+  for (const ContourFrame& frame : file.frames)
+    for (const ContourPoint& p : frame.points) {
+      if (p.kind == "curve" || p.kind == "surface" || p.kind == "volume") continue;
+      auto& [sum, count] = sums.try_emplace(p.kind, Vec2::Zero(), 0).first->second;
+      sum += Vec2(p.position[0], p.position[2]), ++count;
+    }
+  double cost = 0;
+  for (const auto& [place, sum] : sums) {
+    const Vec3 rest = place_at_rest(model, place);
+    const Vec2 off = s(sum.first / sum.second) - Vec2(rest[0], rest[2]);
+    cost += off.squaredNorm() / (place_sd * place_sd);
+  }
+  return cost;
+}
+
+/// A trace is one frame; the sweep of a sensor is all of them.
+std::vector<Vec2> trace_of(const ContourFile& palate) {
+  std::vector<Vec2> trace;
+  for (const auto& line : midsagittal_points(palate)) {
+    trace.insert(trace.end(), line.begin(), line.end());
+    if (palate.format.content != Content::sensors) break;
+  }
+  return trace;
+}
+
+Candidate candidate(const Model& model, const ContourFile& target, const ContourFile* palate,
+                    const AxesReading& reading) {
+  const ContourFile file = turned(target, reading);
+  const auto contours = midsagittal_points(file);
+  Candidate c{.reading = reading};
+  c.registration = palate ? register_by_palate(model, trace_of(turned(*palate, reading)), contours)
+                          : register_by_contours(model, contours);
+  c.cost = c.registration.cost + place_cost(model, file, c.registration.transform);
+  if (target.format.content == Content::sensors && !(reading.up == 2 && reading.up_grows))
+    c.cost += unusual;
+  return c;
+}
+
+std::string described(const Candidate& c, Content content) {
+  return fmt::format("'{}' (scale {:.2f}, tilt {:.0f} degrees, cost {:.0f}; {})",
+                     c.reading.text(content), c.registration.transform.scale,
+                     c.registration.transform.angle * 180 / std::numbers::pi, c.cost,
+                     c.reading.options(content));
+}
+
+}  // namespace
+
+SessionFile read_session_file(const std::string& path, const ReadOptions& options) {
+  check_axes_options(options);
+  RawContours raw = read_raw(path, options);
+  if (!raw.axes) return {path, std::move(raw.file), {"m", "left", "up"}};
+  return {path, in_metres(std::move(raw.file), *raw.axes, path, options), *raw.axes};
+}
+
+SessionFile read_palate(const std::string& path, ReadOptions options, const SessionFile& target) {
+  RawContours raw = read_raw(path, options);
+  if (raw.axes && raw.axes->units.empty() && options.units.empty() && options.mm_per_px == 0)
+    options.units = target.file.units;
+  return read_session_file(path, options);
+}
+
+AlignedRecording align(const Model& model, SessionFile target,
+                       const std::optional<SessionFile>& palate, const ReadOptions& options) {
+  const Content content = target.file.format.content;
+  const ContourFile* trace = palate ? &palate->file : nullptr;
+  if (trace && trace_of(*trace).empty())
+    throw InputError(palate->path + ": no palate point has a value");
+  const Vec3 extent = spread(target.file, trace);
+  std::vector<Candidate> said, others;
+  for (const AxesReading& reading : all_readings(target.file)) {
+    const bool agreed = agrees(reading, target.axes, options, content);
+    if (!agreed && !in_plane(reading, extent)) continue;
+    if (agreed && options.axes.empty() && !in_plane(reading, extent)) continue;
+    (agreed ? said : others).push_back(candidate(model, target.file, trace, reading));
+  }
+  const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
+  std::sort(said.begin(), said.end(), cheaper);
+  std::sort(others.begin(), others.end(), cheaper);
+  if (said.empty())
+    throw InputError(target.path + ": no axes of its agree with what was said of them");
+  const Candidate& best = said.front();
+  const auto judged = [&](const Candidate& c) {
+    return judge(model, c.registration, midsagittal_points(turned(target.file, c.reading)),
+                 palate.has_value());
+  };
+  const Judgement judgement = judged(best);
+  if (judgement.faults.empty() && said.size() > 1 && said[1].cost < best.cost + alike &&
+      judged(said[1]).faults.empty())
+    throw InputError(
+        fmt::format("{}: two readings of its axes fit alike, {} and {}; say which by those options",
+                    target.path, described(best, content), described(said[1], content)));
+  AlignedRecording result{turned(std::move(target.file), best.reading), best.registration,
+                          best.reading, judgement};
+  if (!others.empty() && others.front().cost + far_better < best.cost)
+    result.judgement.faults.push_back(
+        fmt::format("its axes were read as {}, and {} fits better: is it a mirror image?",
+                    described(best, content), described(others.front(), content)));
+  result.file.facing_known = true;
+  result.file.remarks.push_back(
+      fmt::format("{} ({})", best.reading.text(content),
+                  said.size() > 1 ? "fits best of what may be" : "as said or by its format"));
+  remark_order(result.file);
+  return result;
+}
+
+std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {
+  std::vector<std::vector<Vec2>> result;
+  for (const auto& frame : file.frames) {
+    std::vector<Vec2> line;
+    for (const auto& p : frame.points)
+      if (p.kind != "surface" && p.kind != "volume")
+        line.emplace_back(p.position[0], p.position[2]);
+    if (!line.empty()) result.push_back(std::move(line));
+  }
+  return result;
+}
+
+}  // namespace genio

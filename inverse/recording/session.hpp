@@ -1,0 +1,44 @@
+#pragma once
+// The files of one session of a device: what their axes are, and where the model lies in them.
+
+#include <optional>
+
+#include "inverse/recording/base/axes_reading.hpp"
+#include "inverse/recording/contour_file.hpp"
+#include "inverse/recording/judgement.hpp"
+
+namespace genio {
+
+/// A file of a session, in metres and the device's own axes.
+struct SessionFile {
+  std::string path;
+  ContourFile file;
+  FileAxes axes;  ///< what its format says of them
+};
+
+/// Reads a file of a session. Throws InputError naming file and field.
+SessionFile read_session_file(const std::string& path, const ReadOptions& options);
+
+/// Reads the palate trace of the same session: in the target's units where neither its format nor
+/// the caller says others.
+SessionFile read_palate(const std::string& path, ReadOptions options, const SessionFile& target);
+
+/// A recording with its registration, and the reading of the axes that it belongs to.
+struct AlignedRecording {
+  ContourFile file;  ///< x backwards and z up, its place still the device's
+  Registration registration;
+  AxesReading reading;
+  Judgement judgement;
+};
+
+/// Finds the axes once for all files of the session. Every reading that the caller allows is
+/// registered, by the palate where there is one, else by the contours alone; the cheapest is taken.
+/// A reading that the format or the caller excludes and that fits far better is a fault of the
+/// judgement. Throws InputError that names both where two allowed ones fit alike.
+AlignedRecording align(const Model& model, SessionFile target,
+                       const std::optional<SessionFile>& palate, const ReadOptions& options);
+
+/// The points of all frames on the midsagittal line, curves and marked points, (x, z) [m].
+std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);
+
+}  // namespace genio

@@ -1,0 +1,47 @@
+#include "runs/frames/registration_record.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace genio {
+
+std::string faults_text(const Judgement& judgement) {
+  return fmt::format("{}", fmt::join(judgement.faults, "; "));
+}
+
+nlohmann::json registration_json(const RegistrationRecord& r) {
+  const Judgement& j = r.judgement;
+  nlohmann::json json = {{"scale", j.scale},
+                         {"tilt_deg", j.tilt * 180 / std::numbers::pi},
+                         {"shift_mm", {1e3 * j.shift[0], 1e3 * j.shift[1]}},
+                         {"palate_rms_mm", nullptr},
+                         {"from_rest_mm", 1e3 * j.from_rest},
+                         {"behind_palate", j.behind_palate},
+                         {"units", r.units},
+                         {"axes", r.axes},
+                         {"by", r.given       ? "given"
+                                : r.by_palate ? "palate"
+                                              : "contours"},
+                         {"doubtful", !j.faults.empty()},
+                         {"reason", faults_text(j)},
+                         {"forced", r.forced}};
+  if (r.by_palate && !r.given) json["palate_rms_mm"] = 1e3 * j.palate_rms;
+  return json;
+}
+
+AnswerView with_registration(AnswerView view, const RegistrationRecord& record) {
+  view.registration = registration_json(record).dump();
+  if (record.forced) view.title += " (the registration is doubtful)";
+  return view;
+}
+
+std::string no_forces_json(const std::string& message, const RegistrationRecord& record) {
+  return nlohmann::json{
+      {"status", "failed"}, {"message", message}, {"registration", registration_json(record)}}
+      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace genio

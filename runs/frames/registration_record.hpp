@@ -1,0 +1,32 @@
+#pragma once
+// What every output says of how a recording was laid beside the model.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "inverse/recording/session.hpp"
+#include "runs/results/answer_view.hpp"
+
+namespace genio {
+
+struct RegistrationRecord {
+  Judgement judgement;
+  std::string units, axes;  ///< as they were read
+  bool by_palate = true;    ///< false: by the contours alone
+  bool given = false;       ///< the file is in the model's frame by itself
+  bool forced = false;      ///< answered although it failed its test
+};
+
+/// `scale, tilt_deg, shift_mm, palate_rms_mm, from_rest_mm, behind_palate, units, axes, by,
+/// doubtful, reason, forced`.
+nlohmann::json registration_json(const RegistrationRecord& record);
+
+/// The view with the registration, of which its title tells where it was forced.
+AnswerView with_registration(AnswerView view, const RegistrationRecord& record);
+
+/// The one object of a run that gave no forces: `status, message, registration`.
+std::string no_forces_json(const std::string& message, const RegistrationRecord& record);
+
+/// All faults in one sentence each; empty where there are none.
+std::string faults_text(const Judgement& judgement);
+
+}  // namespace genio

@@ -1,0 +1,68 @@
+// A recording that cannot be laid beside the model gives no frames, unless its owner insists.
+
+#include "runs/frames/measured.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "forward/model/build_model.hpp"
+#include "inverse/target/tongue_line.hpp"
+#include "tests/forward/small_model.hpp"
+#include "tests/runs/temporary_folder.hpp"
+
+namespace genio {
+namespace {
+
+class MeasuredTest : public testing::Test {
+ protected:
+  /// The tongue at rest as a table in the model's frame, its numbers changed.
+  std::string table(double along, double across) {
+    const std::string path = folder.path() + "/rest.csv";
+    std::ofstream out(path);
+    out << "frame,point,x_mm,z_mm\n";
+    int k = 0;
+    for (const Vec2& q : TongueLine(model).sample(model.rest, 30))
+      out << fmt::format("1,{},{:.4f},{:.4f}\n", ++k, 1e3 * along * q[0], 1e3 * across * q[1]);
+    return path;
+  }
+  Measured read(const std::string& path, bool force = false) {
+    MeasuredOptions o;
+    o.target = path, o.force = force;
+    return read_measured(
+        o, [&]() -> const Model& { return model; }, [&](const std::string& r) { remarks += r; });
+  }
+  const Model model = read_model(test::generic_model());
+  const test::TemporaryFolder folder;
+  std::string remarks;
+};
+
+TEST_F(MeasuredTest, WhatLiesWhereTheTongueIsPassesAndSaysSo) {
+  const Measured m = read(table(1, 1));
+  EXPECT_EQ(m.frames.size(), 1u);
+  const auto json = registration_json(m.registration);
+  EXPECT_FALSE(json["doubtful"]);
+  EXPECT_EQ(json["by"], "given");
+  EXPECT_LT(json["from_rest_mm"], 1);
+}
+
+TEST_F(MeasuredTest, MirrorImagesAndOtherUnitsGiveNoFrames) {
+  EXPECT_THROW(read(table(-1, 1)), RegistrationFailed);
+  EXPECT_THROW(read(table(0.1, 0.1)), RegistrationFailed);
+  EXPECT_THROW(read(table(0.6, 0.6)), RegistrationFailed);
+}
+
+TEST_F(MeasuredTest, WhoInsistsIsToldInEveryResult) {
+  const Measured m = read(table(-1, 1), true);
+  EXPECT_EQ(m.frames.size(), 1u);
+  const auto json = registration_json(m.registration);
+  EXPECT_TRUE(json["doubtful"]);
+  EXPECT_TRUE(json["forced"]);
+  EXPECT_NE(remarks.find("DOUBTFUL"), std::string::npos);
+  EXPECT_NE(with_registration({}, m.registration).title.find("doubtful"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace genio
