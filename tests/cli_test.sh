@@ -69,7 +69,7 @@ expect 0 '"verdict":"explained"' "$genio" invert --target "$example" --full-spac
 # Other programs' files: what they do not say is asked for.
 awk -F, 'NR>1 {printf "%s,%s\n", 5*$3, 600-5*$4}' "$example" >pixels.csv
 expect 2 'give --units or --mm-per-px' "$genio" invert --target pixels.csv
-expect 2 'give the same session' "$genio" invert --target pixels.csv --mm-per-px 0.2
+expect 2 '--facing right' "$genio" invert --target pixels.csv --mm-per-px 0.2
 expect 2 'which way the face looks' "$genio" invert --target pixels.csv --mm-per-px 0.2 --registered
 printf 'FRAME\tTIME\tPOINT\tX\tY\n1\t0\t1\tabc\t2\n' >bad.tsv
 expect 2 "bad.tsv:2: fields X, Y: 'abc'" "$genio" invert --target bad.tsv
@@ -82,7 +82,7 @@ expect 2 'no such file' "$genio" invert --target nothing.csv
 printf 'frame,point,x_mm,z_mm\n1,1,80,abc\n' >bad.csv
 expect 2 'bad.csv:2: field z_mm' "$genio" invert --target bad.csv
 printf 'frame,point,x_mm,z_mm\n1,1,0.08,0.11\n1,2,0.09,0.12\n1,3,0.1,0.11\n' >metres.csv
-expect 2 'Wrong units' "$genio" invert --target metres.csv
+expect 1 'cannot be laid beside the model' "$genio" invert --target metres.csv
 expect 2 'expected A-B' "$genio" invert --target "$example" --frames 3-x
 expect 2 'no such frame' "$genio" invert --target "$example" --frames 7
 { printf 'sp\t1\td\tword\ta\t0\t0\t0\t0\t0\t0'; for k in $(seq 42); do printf '\t%d\t3' "$k"; done; echo; } >fan.tsv

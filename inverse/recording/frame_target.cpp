@@ -108,9 +108,15 @@ Target make_target(const Model& model, const ContourFrame& frame, double noise) 
   return target;
 }
 
+std::vector<std::pair<int, double>> place_weights(const Model& model, const std::string& place) {
+  ContourPoint p;
+  p.kind = place;
+  return flesh(model, p);
+}
+
 Vec3 place_at_rest(const Model& model, const std::string& place) {
   Vec3 sum = Vec3::Zero();
-  for (const auto& [node, weight] : flesh(model, {.position = Vec3::Zero(), .kind = place}))
+  for (const auto& [node, weight] : place_weights(model, place))
     sum += weight * model.mesh.nodes[size_t(node)];
   return sum;
 }

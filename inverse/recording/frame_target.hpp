@@ -16,6 +16,10 @@ ContourFrame registered(const Model& model, const ContourFrame& frame, const Sim
 /// Throws InputError naming the point.
 Target make_target(const Model& model, const ContourFrame& frame, double noise);
 
+/// The nodes whose weighted positions are a marked point's ("tip", "node:919", ...). Throws
+/// InputError for a place that there is not.
+std::vector<std::pair<int, double>> place_weights(const Model& model, const std::string& place);
+
 /// Where a marked point ("tip", "node:919", ...) lies at rest [m]. Throws InputError for a place
 /// that there is not.
 Vec3 place_at_rest(const Model& model, const std::string& place);

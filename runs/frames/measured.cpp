@@ -129,8 +129,9 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   Measured m;
   if (target.file.model_frame || o.registered) {
     ContourFile file = read_contours(o.target, read);
-    for (const std::string& line : file.remarks) remark(fmt::format("{}: {}", o.target, line));
+    const std::vector<std::string> remarks = file.remarks;
     m = as_given(model(), std::move(file), o);
+    for (const std::string& line : remarks) remark(fmt::format("{}: {}", o.target, line));
   } else {
     m = as_registered(model(), aligned(model(), std::move(target), o, read), o, remark);
   }

@@ -1,0 +1,122 @@
+#include "bench/experiments/recordings/recordings.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "bench/experiments/recordings/spoil.hpp"
+#include "forward/model/build_model.hpp"
+#include "forward/model/model_file.hpp"
+#include "inverse/search/multi_start.hpp"
+
+namespace genio::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How one recording ended, as its owner sees it.
+struct Outcome {
+  bool refused = false, explained = false;
+  std::string said;  ///< the refusal, or the remarks
+};
+
+/// Read, registered and its first frame inverted, as `genio invert` does.
+Outcome invert(const Model& model, WrittenSession w, const std::string& folder,
+               InferWorkspace& ws) {
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder + "/" + name, std::ios::binary) << text;
+    return folder + "/" + name;
+  };
+  w.options.target = write(w.target, w.target_text);
+  if (!w.palate.empty()) w.options.palate = write(w.palate, w.palate_text);
+  Outcome outcome;
+  try {
+    const Measured m = read_measured(
+        w.options, [&]() -> const Model& { return model; },
+        [&](const std::string& remark) { outcome.said += remark + "\n"; });
+    const ContourFrame& frame = m.frames.front();
+    outcome.said += frame.note;
+    const Target target = make_target(model, frame, m.noise);
+    if (target.empty()) return outcome;
+    const Answer a = infer_from_starts(model, target, {}, ws);
+    outcome.explained = a.status == InferStatus::converged && a.verdict == Verdict::explained;
+  } catch (const std::exception& e) {
+    outcome.refused = true, outcome.said = e.what();
+  }
+  return outcome;
+}
+
+/// Warnings say what was left out or is doubtful; other remarks say what was taken for granted.
+bool warned(const std::string& said) {
+  for (const char* word : {"left out", "dropped", "missing", "DOUBTFUL", "twice", "jump"})
+    if (said.find(word) != std::string::npos) return true;
+  return false;
+}
+
+Json run_recordings(const BenchOptions& o, const Progress& progress) {
+  const Model model = read_model(o.model);
+  const int count = o.sample > 0 ? o.sample : 200;
+  const std::string folder =
+      (fs::temp_directory_path() / fmt::format("genio_recordings_{}", getpid())).string();
+  fs::create_directories(folder);
+  InferWorkspace ws(model);
+  std::mt19937 random(o.seed);
+  constexpr Device devices[] = {Device::aaa, Device::edgetrak, Device::articulograph,
+                                Device::getcontours, Device::table};
+  int good_refused = 0, good_explained = 0, spoiled = 0, spoiled_explained = 0, unnamed = 0;
+  Json refusals = Json::array(), missed = Json::array();
+  std::map<std::string, std::array<int, 3>> kinds;  // cases, explained, unnamed
+  for (int k = 0; k < count; ++k) {
+    const SyntheticSession session = draw_session(model, devices[k % 5], random);
+    const Outcome good = invert(model, written(session), folder, ws);
+    good_refused += good.refused, good_explained += good.explained;
+    if (good.refused) refusals.push_back({{"session", k}, {"said", good.said}});
+    const Spoil& spoil = spoils()[size_t(k / 5) % spoils().size()];
+    SyntheticSession bad = session;
+    if (spoil.before && !spoil.before(bad, model, random)) continue;
+    WrittenSession text = written(bad);
+    if (spoil.after && !spoil.after(text, random)) continue;
+    const Outcome outcome = invert(model, std::move(text), folder, ws);
+    const bool silent = outcome.explained && !warned(outcome.said);
+    ++spoiled, spoiled_explained += outcome.explained, unnamed += silent;
+    auto& kind = kinds[spoil.name];
+    ++kind[0], kind[1] += outcome.explained, kind[2] += silent;
+    if (silent)
+      missed.push_back(
+          {{"session", k}, {"device", k % 5}, {"spoil", spoil.name}, {"said", outcome.said}});
+    if (progress)
+      progress(fmt::format("{:>4}  {:<24} {}", k, spoil.name,
+                           outcome.refused     ? "refused"
+                           : outcome.explained ? silent ? "EXPLAINED" : "explained, with a warning"
+                                               : "answered, not explained"));
+  }
+  fs::remove_all(folder);
+  Json by_kind;
+  for (const auto& [name, n] : kinds)
+    by_kind[name] = {{"cases", n[0]}, {"explained", n[1]}, {"unnamed", n[2]}};
+  return {{"good", count},
+          {"good_refused", good_refused},
+          {"good_explained", good_explained},
+          {"spoiled", spoiled},
+          {"spoiled_explained", spoiled_explained},
+          {"spoiled_unnamed", unnamed},
+          {"by_kind", by_kind},
+          {"refusals", refusals},
+          {"missed", missed}};
+}
+
+}  // namespace
+
+Benchmark recordings_bench() {
+  return {
+      .name = "recordings",
+      .about = "Recordings of the model itself, each also spoiled in one way: refused or named?",
+      .options = {{"--sample", "sessions (200)"}, {"--seed", "which are drawn"}},
+      .run = run_recordings};
+}
+
+}  // namespace genio::bench
