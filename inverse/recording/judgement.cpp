@@ -13,7 +13,7 @@ namespace {
 
 constexpr double shortest_line = 0.12, longest_line = 0.16;  // of 41 speakers' tongues [m]
 constexpr double slack = 1.15;
-constexpr double telling = 8;          // fall of the cost, in squares of standard deviations
+constexpr double telling = 8;           // fall of the cost, in squares of standard deviations
 constexpr double most_tilt = 45;        // [deg]
 constexpr double poor_palate = 3e-3;    // [m]
 constexpr double out_of_reach = 15e-3;  // root mean square from the line at rest [m]
@@ -53,7 +53,8 @@ Judgement judge(const Model& model, const Registration& r,
   Judgement j{.scale = r.transform.scale,
               .tilt = r.transform.angle,
               .shift = r.transform.shift,
-              .palate_rms = r.palate_rms};
+              .palate_rms = r.palate_rms,
+              .off_reach = r.off_reach};
   const std::vector<Vec2> rest = TongueLine(model).sample(model.rest, 60);
   std::vector<double> distances;
   for (const auto& contour : contours)

@@ -11,6 +11,7 @@ struct Judgement {
   Vec2 shift = Vec2::Zero();   ///< of the middle of what was registered
   double palate_rms = 0;       ///< of the palate trace; 0: there is none
   double from_rest = 0;        ///< root mean square distance from the line at rest: median frame
+  double off_reach = 0;        ///< from lines that muscles make: median frame
   double behind_palate = 0;    ///< share of points that lie beyond bone
   std::vector<std::string> faults = {};  ///< why it is not to be trusted; empty: it passed
 };

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "inverse/recording/contour_file.hpp"
-#include "inverse/target/tongue_line.hpp"
+#include "inverse/recording/reach.hpp"
 
 namespace genio {
 
@@ -19,6 +19,7 @@ struct Registration {
   Similarity transform;
   double palate_rms = 0;  ///< of the palate trace from the model's palate, after fitting [m]
   double cost = 0;        ///< what was minimised: squares in units of their standard deviations
+  double off_reach = 0;   ///< of the median contour from a line that muscles make [m]
   /// The scale that the recording says by itself, and by how much that lowers its cost.
   double free_scale = 1, free_gain = 0;
   /// How well it is known: of the middle of what was registered [m], and of the tilt [rad].
@@ -33,15 +34,16 @@ double rms_distance(const Similarity& s, const std::vector<Vec2>& points,
 /// Rigid motion and scale that lay the palate trace onto the model's midsagittal palate. Along a
 /// smooth arch that leaves a slide, a tilt and the scale nearly free: on real ultrasound two
 /// registrations fit the palate equally well (RMS 1 mm). So scale and tilt have weak priors (6 %
-/// and 20 degrees), and the contours of all frames together decide: they lie about the rest shape
-/// (5 mm, as much as 60 points). Throws InputError when the model has no palate or the trace fewer
-/// than 5 points.
-Registration register_by_palate(const Model& model, const std::vector<Vec2>& palate_trace,
+/// and 20 degrees), and the contours of all frames together decide, as much as 60 points: they lie
+/// about the rest shape (5 mm), then about lines that the reach bends to them (2.5 mm). Throws
+/// InputError when the model has no palate or the trace fewer than 5 points.
+Registration register_by_palate(const Model& model, const TongueReach& reach,
+                                const std::vector<Vec2>& palate_trace,
                                 const std::vector<std::vector<Vec2>>& contours);
 
 /// The same without a palate: the contours alone lie about the rest shape. Scale and tilt are known
 /// by their priors and little else. Throws InputError for fewer than 5 points.
-Registration register_by_contours(const Model& model,
+Registration register_by_contours(const TongueReach& reach,
                                   const std::vector<std::vector<Vec2>>& contours);
 
 }  // namespace genio

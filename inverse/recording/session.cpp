@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "inverse/recording/base/curve_pieces.hpp"
 #include "inverse/recording/frame_target.hpp"
 
 namespace genio {
@@ -97,13 +98,14 @@ std::vector<Vec2> trace_of(const ContourFile& palate) {
   return trace;
 }
 
-Candidate candidate(const Model& model, const ContourFile& target, const ContourFile* palate,
-                    const AxesReading& reading) {
+Candidate candidate(const Model& model, const TongueReach& reach, const ContourFile& target,
+                    const ContourFile* palate, const AxesReading& reading) {
   const ContourFile file = turned(target, reading);
   const auto contours = midsagittal_points(file);
   Candidate c{.reading = reading};
-  c.registration = palate ? register_by_palate(model, trace_of(turned(*palate, reading)), contours)
-                          : register_by_contours(model, contours);
+  c.registration =
+      palate ? register_by_palate(model, reach, trace_of(turned(*palate, reading)), contours)
+             : register_by_contours(reach, contours);
   c.cost = c.registration.cost + place_cost(model, file, c.registration.transform);
   if (target.format.content == Content::sensors && !(reading.up == 2 && reading.up_grows))
     c.cost += unusual;
@@ -122,8 +124,10 @@ std::string described(const Candidate& c, Content content) {
 SessionFile read_session_file(const std::string& path, const ReadOptions& options) {
   check_axes_options(options);
   RawContours raw = read_raw(path, options);
-  if (!raw.axes) return {path, std::move(raw.file), {"m", "left", "up"}};
-  return {path, in_metres(std::move(raw.file), *raw.axes, path, options), *raw.axes};
+  const FileAxes axes = raw.axes.value_or(FileAxes{"m", "left", "up"});
+  ContourFile file =
+      raw.axes ? in_metres(std::move(raw.file), axes, path, options) : std::move(raw.file);
+  return {path, with_one_curve_a_frame(std::move(file), path), axes};
 }
 
 SessionFile read_palate(const std::string& path, ReadOptions options, const SessionFile& target) {
@@ -140,29 +144,36 @@ AlignedRecording align(const Model& model, SessionFile target,
   if (trace && trace_of(*trace).empty())
     throw InputError(palate->path + ": no palate point has a value");
   const Vec3 extent = spread(target.file, trace);
+  const TongueReach reach = reach_of(model);
   std::vector<Candidate> said, others;
   for (const AxesReading& reading : all_readings(target.file)) {
     const bool agreed = agrees(reading, target.axes, options, content);
     if (!agreed && !in_plane(reading, extent)) continue;
     if (agreed && options.axes.empty() && !in_plane(reading, extent)) continue;
-    (agreed ? said : others).push_back(candidate(model, target.file, trace, reading));
+    (agreed ? said : others).push_back(candidate(model, reach, target.file, trace, reading));
   }
   const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
   std::sort(said.begin(), said.end(), cheaper);
   std::sort(others.begin(), others.end(), cheaper);
   if (said.empty())
     throw InputError(target.path + ": no axes of its agree with what was said of them");
-  const Candidate& best = said.front();
   const auto judged = [&](const Candidate& c) {
     return judge(model, c.registration, midsagittal_points(turned(target.file, c.reading)),
                  palate.has_value());
   };
-  const Judgement judgement = judged(best);
-  if (judgement.faults.empty() && said.size() > 1 && said[1].cost < best.cost + alike &&
-      judged(said[1]).faults.empty())
-    throw InputError(
-        fmt::format("{}: two readings of its axes fit alike, {} and {}; say which by those options",
-                    target.path, described(best, content), described(said[1], content)));
+  // The cheapest that passes the test, of those that are hardly dearer than the cheapest.
+  size_t chosen = 0;
+  Judgement judgement = judged(said.front());
+  for (size_t k = 1; k < said.size() && !judgement.faults.empty(); ++k)
+    if (said[k].cost < said.front().cost + far_better)
+      if (Judgement other = judged(said[k]); other.faults.empty())
+        chosen = k, judgement = std::move(other);
+  const Candidate& best = said[chosen];
+  for (size_t k = 0; k < said.size() && judgement.faults.empty(); ++k)
+    if (k != chosen && said[k].cost < best.cost + alike && judged(said[k]).faults.empty())
+      throw InputError(fmt::format(
+          "{}: two readings of its axes fit alike, {} and {}; say which by those options",
+          target.path, described(best, content), described(said[k], content)));
   AlignedRecording result{turned(std::move(target.file), best.reading), best.registration,
                           best.reading, judgement};
   if (!others.empty() && others.front().cost + far_better < best.cost)

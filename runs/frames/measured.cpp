@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "inverse/recording/base/curve_pieces.hpp"
 #include "inverse/recording/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
 
@@ -64,6 +65,15 @@ std::string text_of(const RegistrationRecord& r) {
       1e3 * j.from_rest);
 }
 
+/// What tells that the model is another speaker's; empty where it may be this one's.
+std::string of_another(const RegistrationRecord& r) {
+  constexpr double other_palate = 0.6e-3, other_size = 0.15;  // [m], of the logarithm
+  const bool size = std::abs(std::log(r.judgement.scale)) > other_size;
+  if (!size && !(r.by_palate && r.judgement.palate_rms > other_palate)) return {};
+  return "the palate's shape or size is not the model's: forces are those of the model's anatomy, "
+         "and they mislead where the palate is another speaker's than the tongue";
+}
+
 /// A file that is in the model's frame by itself, or so the caller says.
 Measured as_given(const Model& model, ContourFile file, const MeasuredOptions& o) {
   if (!file.facing_known)
@@ -86,6 +96,8 @@ Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOpt
                     .axes = a.reading.text(a.file.format.content),
                     .by_palate = !o.palate.empty()};
   a.file.remarks.push_back(text_of(m.registration));
+  if (const std::string other = of_another(m.registration); !other.empty())
+    a.file.remarks.push_back(other);
   if (o.palate.empty()) {
     m.head_pose = HeadPosePrior{a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd};
     a.file.remarks.push_back(fmt::format(
@@ -128,7 +140,9 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   const FormatTraits format = target.file.format;
   Measured m;
   if (target.file.model_frame || o.registered) {
-    ContourFile file = read_contours(o.target, read);
+    ContourFile file = target.file.model_frame
+                           ? std::move(target.file)
+                           : with_one_curve_a_frame(read_contours(o.target, read), o.target);
     const std::vector<std::string> remarks = file.remarks;
     m = as_given(model(), std::move(file), o);
     for (const std::string& line : remarks) remark(fmt::format("{}: {}", o.target, line));

@@ -19,6 +19,7 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
                          {"shift_mm", {1e3 * j.shift[0], 1e3 * j.shift[1]}},
                          {"palate_rms_mm", nullptr},
                          {"from_rest_mm", 1e3 * j.from_rest},
+                         {"off_reach_mm", 1e3 * j.off_reach},
                          {"behind_palate", j.behind_palate},
                          {"units", r.units},
                          {"axes", r.axes},

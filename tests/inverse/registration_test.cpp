@@ -19,7 +19,7 @@ TEST(Registration, BringsAMovedPalateBack) {
       trace.push_back(away(palate[i]));
   std::vector<std::vector<Vec2>> contours(1);
   for (const Vec2& q : TongueLine(m).sample(m.rest, 30)) contours[0].push_back(away(q));
-  const auto r = register_by_palate(m, trace, contours);
+  const auto r = register_by_palate(m, reach_of(m), trace, contours);
   EXPECT_LT(r.palate_rms, 1e-3);
   for (size_t i = 0; i < contours[0].size(); ++i)
     EXPECT_LT((r.transform(contours[0][i]) - TongueLine(m).sample(m.rest, 30)[i]).norm(), 3e-3);
@@ -27,10 +27,11 @@ TEST(Registration, BringsAMovedPalateBack) {
 
 TEST(Registration, NeedsPalateAndTrace) {
   const Model m = read_model(test::generic_model());
-  EXPECT_THROW(register_by_palate(m, {Vec2(0, 0)}, {}), InputError);
+  EXPECT_THROW(register_by_palate(m, reach_of(m), {Vec2(0, 0)}, {}), InputError);
   ModelParts parts = m.parts();
   parts.palate.reset();
-  EXPECT_THROW(register_by_palate(Model(parts), std::vector<Vec2>(10, Vec2(0, 0)), {}), InputError);
+  EXPECT_THROW(register_by_palate(Model(parts), reach_of(m), std::vector<Vec2>(10, Vec2(0, 0)), {}),
+               InputError);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ TEST(Ultrasound, FramesGetAnAnswerOrAStatedReason) {
   const auto file = read_contours(data + "/ultrasound_aaa/coretta2018itapol/it01-vowel-series.tsv");
   const auto palate = read_contours(data + "/ultrasound_aaa/rticulate/it01-palate.tsv");
   EXPECT_EQ(file.frames.size(), 1013u);
-  const auto r =
-      register_by_palate(m, midsagittal_points(palate).front(), midsagittal_points(file));
+  const auto r = register_by_palate(m, reach_of(m), midsagittal_points(palate).front(),
+                                    midsagittal_points(file));
   EXPECT_LT(r.palate_rms, 2e-3);
   EXPECT_NEAR(r.transform.scale, 1, 0.25);  // another speaker than the model
   int answered = 0;

@@ -11,6 +11,7 @@
 #include "bench/experiments/recordings/spoil.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
+#include "inverse/recording/frame_target.hpp"
 #include "inverse/search/multi_start.hpp"
 
 namespace genio::bench {
@@ -52,7 +53,7 @@ Outcome invert(const Model& model, WrittenSession w, const std::string& folder,
 
 /// Warnings say what was left out or is doubtful; other remarks say what was taken for granted.
 bool warned(const std::string& said) {
-  for (const char* word : {"left out", "dropped", "missing", "DOUBTFUL", "twice", "jump"})
+  for (const char* word : {"left out", "dropped", "missing", "DOUBTFUL", "not the model's"})
     if (said.find(word) != std::string::npos) return true;
   return false;
 }

@@ -107,7 +107,8 @@ SyntheticSession draw_session(const Model& model, Device device, std::mt19937& r
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::normal_distribution<double> normal;
   Workspace ws(model);
-  SyntheticSession s{.device = device};
+  SyntheticSession s;
+  s.device = device;
   const bool sensors = device == Device::articulograph;
   for (int f = 0; f < frame_count; ++f) {
     const Positions x = posture(model, ws, random);
