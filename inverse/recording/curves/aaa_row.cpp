@@ -12,9 +12,7 @@ namespace {
 
 // Gaps between neighbouring knots of a tongue [mm]: any up to the first are its own, none beyond
 // the second; between them, those that are no wider than a few usual ones.
-constexpr double narrow_gap = 12, wide_gap = 40, usual_gaps = 4;
-// A run beyond a gap is the tongue's too where it holds so large a part of all knots.
-constexpr double large_part = 0.25;
+constexpr double narrow_gap = 12, wide_gap = 40, usual_gaps = 3;
 
 double distance(const AaaKnot& a, const AaaKnot& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -27,31 +25,18 @@ double widest_gap(const std::vector<AaaKnot>& knots) {
   return std::clamp(usual_gaps * *middle, narrow_gap, wide_gap);
 }
 
-/// Without the runs of knots beyond wide gaps: the outermost knots are often tracker noise.
+/// The longest run of knots without a wide gap: the outermost knots are often tracker noise.
 std::vector<AaaKnot> without_far(const std::vector<AaaKnot>& knots) {
   const double widest = widest_gap(knots);
-  std::vector<std::vector<AaaKnot>> runs;
+  std::vector<AaaKnot> best, run;
   for (const AaaKnot& knot : knots) {
-    if (runs.empty() || distance(runs.back().back(), knot) > widest) runs.emplace_back();
-    runs.back().push_back(knot);
+    if (!run.empty() && distance(run.back(), knot) > widest) {
+      if (run.size() > best.size()) best = run;
+      run.clear();
+    }
+    run.push_back(knot);
   }
-  if (runs.size() < 2) return knots;
-  const auto longest = std::max_element(
-      runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  const auto stays = [&](const auto& run) {
-    return double(run.size()) >= large_part * double(knots.size()) && run.size() > 2;
-  };
-  std::vector<AaaKnot> result = *longest;
-  for (auto run = longest; run != runs.begin();) {
-    --run;
-    if (!stays(*run) || distance(run->back(), result.front()) > wide_gap) break;
-    result.insert(result.begin(), run->begin(), run->end());
-  }
-  for (auto run = longest + 1; run != runs.end(); ++run) {
-    if (!stays(*run) || distance(result.back(), run->front()) > wide_gap) break;
-    result.insert(result.end(), run->begin(), run->end());
-  }
-  return result;
+  return run.size() > best.size() ? run : best;
 }
 
 }  // namespace
