@@ -11,6 +11,7 @@
 #include "bench/experiments/recordings/spoil.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
+#include "inverse/recording/frame_target.hpp"
 #include "inverse/search/multi_start.hpp"
 
 namespace genio::bench {
