@@ -21,6 +21,11 @@ std::string usual_noises() {
 void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--target", o.target, "Contour file");
   options.add("--format", o.read.format, format_choices());
+  options.add("--columns", o.columns,
+              "Columns of any long table: x=TITLE,y=TITLE,frame=TITLE,time=...,recording=...",
+              {.separator = ','});
+  options.add("--spline", o.read.spline, "The spline, or the body parts, to take of several");
+  options.add("--points", o.read.points, "A-B: the landmarks of a .pts file that are the tongue's");
   options.add("--units", o.read.units, "mm, cm, m, um or px, where the file does not say");
   options.add("--mm-per-px", o.read.mm_per_px, "Size of a pixel", {.positive = true});
   options.add("--facing", o.read.facing, "Where the face looks in the file: left or right");
@@ -32,6 +37,7 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say",
               {.positive = true});
   options.add("--palate", o.palate, "Palate trace of the same session");
+  options.add("--palate-spline", o.palate_spline, "The spline to take there, of several");
   options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there");
   options.flag("--force-registration", o.force,
                "Answer although the registration fails its test; every result says so");

@@ -1,12 +1,37 @@
 #include "inverse/recording/contour_file.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
 #include "inverse/recording/format_list.hpp"
 
 namespace genio {
+namespace {
+
+const ContourFormat& format_for(const std::string& path, const ReadOptions& o) {
+  if (o.format != "auto") return format_named(o.format);
+  return o.columns.empty() ? format_of(path) : format_named("columns");
+}
+
+/// Throws InputError where an option is given that files of the format have no use for.
+void check_options(const std::string& path, const std::string& format, const ReadOptions& o) {
+  const auto check = [&](bool given, const char* option, const std::vector<std::string>& formats) {
+    if (given && std::find(formats.begin(), formats.end(), format) == formats.end())
+      throw InputError(fmt::format("{}: {} is for files of format {}; this one is {}", path, option,
+                                   fmt::join(formats, " or "), format));
+  };
+  check(!o.columns.empty(), "--columns", {"columns"});
+  check(!o.spline.empty(), "--spline", {"aaa", "deeplabcut"});
+  check(!o.points.empty(), "--points", {"usc_pts"});
+}
+
+}  // namespace
 
 RawContours read_raw(const std::string& path, const ReadOptions& options) {
-  const ContourFormat& format =
-      options.format == "auto" ? format_of(path) : format_named(options.format);
+  const ContourFormat& format = format_for(path, options);
+  check_options(path, format.traits.name, options);
   RawContours raw = format.read(path, options);
   raw.file.format = format.traits;
   return raw;

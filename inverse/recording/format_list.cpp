@@ -9,9 +9,12 @@
 #include "forward/base/nearest_name.hpp"
 #include "inverse/recording/base/table_text.hpp"
 #include "inverse/recording/curves/aaa.hpp"
+#include "inverse/recording/curves/columns.hpp"
 #include "inverse/recording/curves/csv.hpp"
+#include "inverse/recording/curves/deeplabcut.hpp"
 #include "inverse/recording/curves/edgetrak.hpp"
 #include "inverse/recording/curves/getcontours.hpp"
+#include "inverse/recording/curves/usc_pts.hpp"
 #include "inverse/recording/scans/scan.hpp"
 #include "inverse/recording/sensors/ema.hpp"
 
@@ -37,8 +40,9 @@ std::string first_bytes(const std::string& path) {
 const std::vector<ContourFormat>& contour_formats() {
   // A format that knows its files by less stands below those that know theirs by more.
   static const std::vector<ContourFormat> formats = {
-      ema_format(),      scan_format(), getcontours_format(),
-      edgetrak_format(), aaa_format(),  csv_format(),
+      ema_format(),        scan_format(),    getcontours_format(),
+      deeplabcut_format(), usc_pts_format(), edgetrak_format(),
+      columns_format(),    aaa_format(),     csv_format(),
   };
   return formats;
 }
@@ -54,18 +58,21 @@ const ContourFormat& format_named(const std::string& name) {
 }
 
 const ContourFormat& format_of(const std::string& path) {
-  FileStart start{ending(path), first_bytes(path), {}};
+  FileStart start{ending(path), first_bytes(path), {}, {}};
   for (const ContourFormat& format : contour_formats())
     if (format.known_by_bytes && format.known_by_bytes(start)) return format;
   TableLines lines(path);
-  while (lines.next(start.line) && trimmed(start.line).empty()) {
-  }
+  lines.next_filled(start.line);
+  const int first = lines.number();
+  for (std::string line; start.more.size() < 3 && lines.next_filled(line);)
+    start.more.push_back(line);
   for (const ContourFormat& format : contour_formats())
     if (format.known_by_line && format.known_by_line(start)) return format;
   throw InputError(fmt::format(
       "{}:{}: neither tab-separated (AAA, GetContours) nor comma-separated (CSV), nor a file of "
-      "points known by its first bytes or ending; give --format",
-      path, std::max(1, lines.number())));
+      "points known by its first bytes, lines or ending; give --format, or name the columns of a "
+      "table with --columns",
+      path, std::max(1, first)));
 }
 
 std::string format_choices() {

@@ -131,6 +131,7 @@ SessionFile read_session_file(const std::string& path, const ReadOptions& option
 }
 
 SessionFile read_palate(const std::string& path, ReadOptions options, const SessionFile& target) {
+  options.role = "palate";
   RawContours raw = read_raw(path, options);
   if (raw.axes && raw.axes->units.empty() && options.units.empty() && options.mm_per_px == 0)
     options.units = target.file.units;

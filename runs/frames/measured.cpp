@@ -26,13 +26,14 @@ std::pair<int, int> parse_frames(const std::string& text) {
   return {a, b};
 }
 
-/// "5=tip" to what the reader takes.
-std::map<std::string, std::string> parsed_sensors(const std::vector<std::string>& sensors) {
+/// "5=tip" to what the reader takes; `expected` is what the option's values look like.
+std::map<std::string, std::string> parsed_pairs(const std::vector<std::string>& pairs,
+                                                const char* option, const char* expected) {
   std::map<std::string, std::string> result;
-  for (const std::string& s : sensors) {
+  for (const std::string& s : pairs) {
     const auto equals = s.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == s.size())
-      throw InputError(fmt::format("--sensors {}: expected SENSOR=PLACE, as in 5=tip", s));
+      throw InputError(fmt::format("{} {}: expected {}", option, s, expected));
     result[s.substr(0, equals)] = s.substr(equals + 1);
   }
   return result;
@@ -48,7 +49,8 @@ AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredO
                          const ReadOptions& read) {
   if (o.palate.empty()) return align(model, std::move(target), {}, read);
   ReadOptions palate = read;
-  palate.sensors.clear();
+  palate.sensors.clear(), palate.columns.clear(), palate.points.clear();
+  palate.spline = o.palate_spline;
   if (!o.palate_sensor.empty()) palate.sensors[o.palate_sensor] = "palate";
   if (o.palate_sensor.empty() && names_sensors(o.read.format)) palate.format = "auto";
   const SessionFile trace = read_palate(o.palate, palate, target);
@@ -135,7 +137,8 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   if (!(o.noise_mm >= 0)) throw InputError("--noise-mm: must be above 0");
   const auto [first, last] = parse_frames(o.frames);
   ReadOptions read = o.read;
-  read.sensors = parsed_sensors(o.sensors);
+  read.sensors = parsed_pairs(o.sensors, "--sensors", "SENSOR=PLACE, as in 5=tip");
+  read.columns = parsed_pairs(o.columns, "--columns", "ROLE=TITLE, as in frame=uniqueframe");
   SessionFile target = read_session_file(o.target, read);
   const FormatTraits format = target.file.format;
   Measured m;

@@ -16,9 +16,10 @@ namespace genio {
 
 /// As the command line gives them; errors name its options.
 struct MeasuredOptions {
-  std::string target, palate, palate_sensor;
+  std::string target, palate, palate_sensor, palate_spline;
   std::string frames;                ///< "7" or "3-9"; empty: all
   std::vector<std::string> sensors;  ///< "5=tip"
+  std::vector<std::string> columns;  ///< "frame=uniqueframe", of the target's table
   ReadOptions read;
   bool registered = false;  ///< already in the model's frame
   bool force = false;       ///< answer also on a registration that fails its test

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "inverse/recording/contour_file.hpp"
+#include "inverse/target/tongue_line.hpp"
 
 namespace genio {
 

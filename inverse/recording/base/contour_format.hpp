@@ -19,9 +19,10 @@ struct RawContours {
 
 /// What a file shows of itself before it is read.
 struct FileStart {
-  std::string ending;  ///< ".pos", in small letters
-  std::string bytes;   ///< the first four
-  std::string line;    ///< the first that is not blank
+  std::string ending;             ///< ".pos", in small letters
+  std::string bytes;              ///< the first four
+  std::string line;               ///< the first that is not blank
+  std::vector<std::string> more;  ///< up to three that are not blank after it
 };
 
 /// A small file of a format, whole, and what its reader has to be told.

@@ -56,6 +56,10 @@ struct ReadOptions {
   std::map<std::string, std::string> columns;
   /// The spline to take where a file has several; empty: the only one that is named for the tongue.
   std::string spline;
+  /// What the file is to show: "tongue", "palate" or "bite plane". Of several splines, that one is
+  /// taken.
+  std::string role = "tongue";
+  std::string points;  ///< "A-B": those of a list of landmarks that are the tongue's
   double rate_hz = 0;  ///< of samples, where the file does not tell
 };
 

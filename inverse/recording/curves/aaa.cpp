@@ -2,123 +2,181 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
-#include <regex>
+#include <algorithm>
+#include <array>
+#include <map>
 
-#include "inverse/recording/base/table_text.hpp"
-#include "inverse/recording/curves/aaa_polar.hpp"
+#include "inverse/recording/base/named_curve.hpp"
+#include "inverse/recording/curves/aaa_blocks.hpp"
+#include "inverse/recording/curves/aaa_row.hpp"
 
 namespace genio {
 namespace {
 
-constexpr double longest_gap = 12;  // between neighbouring knots of one contour [mm]
+constexpr size_t none = size_t(-1);
+constexpr size_t fan_lines = 42;
 
 /// Where things stand in a row.
 struct Layout {
-  std::vector<std::pair<size_t, size_t>> knots;  // columns of x and y
-  size_t label = 3, time = 1;
+  std::vector<std::array<size_t, 2>> knots;  // columns of x and y
+  AaaColumns before;
 };
 
-/// Columns "X0 Tongue", "Y0 Tongue", ... of the first spline named in a header.
-Layout from_header(const std::vector<std::string>& header, const TableLines& lines) {
-  Layout layout;
-  const std::regex knot(R"(^([XY])(\d+)\s+(.*)$)");
+struct KnotTitle {
+  int axis = 0;  // 0: X, 1: Y
+  int number = 0;
   std::string spline;
-  std::smatch m, my;
-  for (size_t c = 0; c + 1 < header.size(); ++c) {
-    const std::string name = trimmed(header[c]), next = trimmed(header[c + 1]);
-    if (name == "Prompt") layout.label = c;
-    if (name == "Time of sample in recording") layout.time = c;
-    if (!std::regex_match(name, m, knot) || m[1] != "X") continue;
-    if (!std::regex_match(next, my, knot) || my[1] != "Y" || my[2] != m[2]) continue;
-    if (spline.empty()) spline = m[3];
-    if (m[3] == spline) layout.knots.emplace_back(c, c + 1);
+};
+
+/// "X12 Tongue" taken apart.
+std::optional<KnotTitle> knot_title(const std::string& field) {
+  const std::string title = trimmed(field);
+  if (title.size() < 4 || (title[0] != 'X' && title[0] != 'Y')) return {};
+  const auto blank = title.find(' ');
+  if (blank == std::string::npos || blank < 2 || blank > 5) return {};
+  int number = 0;
+  for (size_t k = 1; k < blank; ++k) {
+    if (title[k] < '0' || title[k] > '9') return {};
+    number = 10 * number + (title[k] - '0');
   }
-  if (layout.knots.empty()) lines.fail("the header names no knots 'X0 ...', 'Y0 ...'");
+  return KnotTitle{title[0] == 'Y', number, trimmed(title.substr(blank))};
+}
+
+bool names_knots(const std::vector<std::string>& fields) {
+  return std::any_of(fields.begin(), fields.end(),
+                     [](const auto& field) { return knot_title(field).has_value(); });
+}
+
+/// Columns "X0 Tongue", "Y0 Tongue", ... of the spline that is meant.
+Layout from_header(const std::vector<std::string>& header, const ReadOptions& o,
+                   const TableLines& lines) {
+  std::vector<std::string> splines;
+  std::map<std::string, std::map<int, std::array<size_t, 2>>> knots;
+  for (size_t c = 0; c < header.size(); ++c) {
+    const auto title = knot_title(header[c]);
+    if (!title) continue;
+    if (!knots.contains(title->spline)) splines.push_back(title->spline);
+    const auto it = knots[title->spline].try_emplace(title->number, std::array{none, none}).first;
+    size_t& column = it->second[size_t(title->axis)];
+    if (column != none)
+      lines.fail(fmt::format("columns {} and {} are both called {}", column + 1, c + 1,
+                             in_quotes(header[c])));
+    column = c;
+  }
+  Layout layout{{}, aaa_columns(header)};
+  const std::string spline =
+      named_curve(splines, o, fmt::format("{}:{}", lines.path(), lines.number()));
+  for (const auto& [number, columns] : knots[spline]) {
+    if (columns[0] == none || columns[1] == none)
+      lines.fail(fmt::format("knot {} of spline {} has no column {}", number, in_quotes(spline),
+                             columns[0] == none ? "X" : "Y"));
+    layout.knots.push_back(columns);
+  }
   return layout;
 }
 
-/// Without a header: 11 or 14 columns before the knots, told apart by their number.
-Layout without_header(size_t fields, const TableLines& lines) {
-  Layout layout;
-  size_t meta = 0;
-  for (size_t m : {size_t(14), size_t(11)})
-    if (fields == m + 84) meta = m;
-  if (meta == 0)
+/// Without a header: 11 or 14 columns before the knots, told apart by their number. Time and date
+/// stand in either order.
+Layout without_header(const std::vector<std::string>& fields, const TableLines& lines) {
+  const size_t count = fields.size();
+  if (count != 11 + 2 * fan_lines && count != 14 + 2 * fan_lines)
     lines.fail(fmt::format(
-        "{} columns; expected 95 or 98 (11 or 14 before 42 knots), or a header line", fields));
-  for (size_t c = meta; c + 1 < fields; c += 2) layout.knots.emplace_back(c, c + 1);
+        "{} columns; expected 95 or 98 (11 or 14 before 42 knots), or a header line", count));
+  Layout layout{{}, {.speaker = 0, .recording = 2, .time = 1, .label = 3}};
+  double time = 0;
+  if (!parse_number(fields[1], time) && parse_number(fields[2], time))
+    layout.before.recording = 1, layout.before.time = 2;
+  for (size_t c = count - 2 * fan_lines; c + 1 < count; c += 2) layout.knots.push_back({c, c + 1});
   return layout;
 }
 
-/// Longest run of knots without a wide gap: the outermost knots are often tracker noise.
-std::vector<ContourPoint> longest_run(const std::vector<ContourPoint>& points) {
-  std::vector<ContourPoint> best, run;
-  for (const auto& p : points) {
-    if (!run.empty() && (Eigen::Vector2d(p.position[0], p.position[2]) -
-                         Eigen::Vector2d(run.back().position[0], run.back().position[2]))
-                                .norm() > longest_gap)
-      run.clear();
-    run.push_back(p);
-    if (run.size() > best.size()) best = run;
+/// The rows' lengths, held against the first line's. AAA leaves knots that are missing at the end
+/// out, and may add an empty field to every row.
+class RowLength {
+ public:
+  RowLength(size_t columns, const TableLines& lines) : columns_(columns), lines_(lines) {}
+  void check(const std::vector<std::string>& fields) {
+    if (fields.size() < columns_) return;
+    const bool adds = fields.size() == columns_ + 1 && trimmed(fields.back()).empty();
+    if ((fields.size() > columns_ && !adds) || (added_ && *added_ != adds))
+      lines_.fail(
+          fmt::format("{} fields; the first line has {}{}. Is there a tab in the prompt or in an "
+                      "annotation?",
+                      fields.size(), columns_,
+                      added_ && *added_ && !adds ? " and the rows before have one more" : ""));
+    added_ = adds;
   }
-  return best;
+
+ private:
+  size_t columns_;
+  const TableLines& lines_;
+  std::optional<bool> added_;
+};
+
+std::vector<AaaKnot> knots_of(const std::vector<std::string>& fields, const Layout& layout,
+                              TableNumbers& numbers, const TableLines& lines) {
+  std::vector<AaaKnot> knots;
+  for (size_t k = 0; k < layout.knots.size(); ++k) {
+    const auto [cx, cy] = layout.knots[k];
+    const std::string tx = cx < fields.size() ? fields[cx] : "";
+    const std::string ty = cy < fields.size() ? fields[cy] : "";
+    if (is_missing(tx) && is_missing(ty)) continue;
+    AaaKnot knot;
+    for (const auto& [column, text, value] :
+         {std::tuple{cx, &tx, &knot.x}, std::tuple{cy, &ty, &knot.y}})
+      if (!numbers.parse(*text, *value))
+        lines.fail(fmt::format("knot {}, field {}: {}; expected two numbers or '*'", k, column + 1,
+                               numbers.complaint(*text)));
+    knots.push_back(knot);
+  }
+  return knots;
 }
 
-RawContours read_cartesian(const std::string& path) {
+RawContours read_cartesian(const std::string& path, const ReadOptions& o) {
   TableLines lines(path);
   RawContours raw{{}, FileAxes{"mm", "right", "up"}};
   ContourFile& file = raw.file;
   file.model_frame = false;
-  Layout layout;
-  size_t columns = 0;
-  int row = 0;
-  for (std::string line; lines.next(line);) {
-    if (trimmed(line).empty()) continue;
-    const auto fields = split_fields(line, '\t');
-    if (columns == 0) {
-      columns = fields.size();
-      const bool header = line.find("X0 ") != std::string::npos;
-      layout = header ? from_header(fields, lines) : without_header(columns, lines);
-      if (header) continue;
-    }
-    // AAA leaves trailing missing knots out, or adds an empty field at the end.
-    if (fields.size() > columns + 1)
-      lines.fail(fmt::format("{} fields; the first line has {}", fields.size(), columns));
-    ContourFrame frame;
-    frame.number = ++row;
-    if (layout.label < fields.size()) frame.label = trimmed(fields[layout.label]);
-    if (layout.time < fields.size()) parse_number(fields[layout.time], frame.time_s);
-    for (size_t k = 0; k < layout.knots.size(); ++k) {
-      const auto [cx, cy] = layout.knots[k];
-      const std::string tx = cx < fields.size() ? trimmed(fields[cx]) : "";
-      const std::string ty = cy < fields.size() ? trimmed(fields[cy]) : "";
-      const bool missing_x = tx.empty() || tx == "*", missing_y = ty.empty() || ty == "*";
-      if (missing_x && missing_y) continue;
-      double x = 0, y = 0;
-      if (!parse_number(tx, x) || !parse_number(ty, y))
-        lines.fail(
-            fmt::format("knot {}: '{}', '{}'; expected two finite numbers or '*'", k, tx, ty));
-      ContourPoint p;
-      p.position = {x, std::numeric_limits<double>::quiet_NaN(), y};
-      p.kind = "curve";
-      frame.points.push_back(std::move(p));
-    }
-    const size_t valid = frame.points.size();
-    frame.points = longest_run(frame.points);
-    if (valid == 0) frame.note = "the frame is empty (no knot has a value)";
+  std::string line;
+  if (!lines.next_filled(line)) lines.fail("the file is empty");
+  auto fields = split_fields(line, '\t');
+  const bool header = names_knots(fields);
+  const Layout layout = header ? from_header(fields, o, lines) : without_header(fields, lines);
+  RowLength length(fields.size(), lines);
+  TableNumbers numbers('\t');
+  AaaLosses losses;
+  if (header && !lines.next_filled(line)) lines.fail("the file has no data row");
+  do {
+    fields = split_fields(line, '\t');
+    length.check(fields);
+    ContourFrame frame =
+        aaa_frame(int(file.frames.size()) + 1, layout.before, fields, numbers, lines);
+    add_knots(frame, knots_of(fields, layout, numbers, lines), 0, o.role == "tongue", losses);
     file.frames.push_back(std::move(frame));
-  }
-  if (file.frames.empty()) lines.fail("the file has no data row");
+  } while (lines.next_filled(line));
+  remark_losses(file, losses, 0);
+  if (numbers.has_commas()) file.remarks.push_back("numbers have decimal commas");
   return raw;
 }
 
-RawContours read(const std::string& path, const ReadOptions&) {
-  return has_polar_blocks(path) ? read_aaa_polar(path) : read_cartesian(path);
+RawContours read(const std::string& path, const ReadOptions& o) {
+  return has_aaa_blocks(path) ? read_aaa_blocks(path, o) : read_cartesian(path, o);
 }
 
-bool known_by_line(const FileStart& start) { return start.line.find('\t') != std::string::npos; }
+/// Without a header, numbers alone are nobody's for sure: AAA's rows have a date, or '*' for what
+/// is missing.
+bool known_by_line(const FileStart& start) {
+  const auto fields = split_fields(start.line, '\t');
+  if (fields.size() < 2) return false;
+  if (names_knots(fields) || names_aaa_blocks(start.line)) return true;
+  return std::any_of(fields.begin(), fields.end(), [](const std::string& field) {
+    const std::string text = trimmed(field);
+    const auto slash = text.find('/');
+    return text == "*" ||
+           (slash != std::string::npos && text.size() < 30 &&
+            text.find('/', slash + 1) != std::string::npos && text.find(':') != std::string::npos);
+  });
+}
 
 }  // namespace
 

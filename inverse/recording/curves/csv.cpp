@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "forward/base/nearest_name.hpp"
-#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/base/frame_rows.hpp"
 
 namespace genio {
 namespace {
 
 const std::vector<std::string> known_columns = {
-    "frame", "point",  "x_mm",      "y_mm",      "z_mm",      "sigma_mm", "kind",
-    "label", "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm", "slice"};
+    "frame",  "point",     "x_mm",      "y_mm",      "z_mm",  "sigma_mm",  "kind",   "label",
+    "time_s", "rest_x_mm", "rest_y_mm", "rest_z_mm", "slice", "recording", "speaker"};
 
 /// Where each column stands.
 using Columns = std::map<std::string, size_t>;
@@ -25,9 +24,10 @@ Columns columns_of(const std::vector<std::string>& header, const TableLines& lin
   for (size_t c = 0; c < header.size(); ++c) {
     const std::string name = trimmed(header[c]);
     if (std::find(known_columns.begin(), known_columns.end(), name) == known_columns.end())
-      lines.fail(fmt::format("unknown column '{}'; did you mean {}?", name,
+      lines.fail(fmt::format("unknown column {}; did you mean {}?", in_quotes(name),
                              nearest_name(name, known_columns)));
-    if (!column.emplace(name, c).second) lines.fail(fmt::format("column '{}' stands twice", name));
+    if (!column.emplace(name, c).second)
+      lines.fail(fmt::format("column {} stands twice", in_quotes(name)));
   }
   for (const char* needed : {"frame", "x_mm", "z_mm"})
     if (!column.contains(needed)) lines.fail(fmt::format("column '{}' is missing", needed));
@@ -38,6 +38,7 @@ Columns columns_of(const std::vector<std::string>& header, const TableLines& lin
 struct Row {
   const Columns& column;
   const TableLines& lines;
+  TableNumbers& numbers;
   std::vector<std::string> fields;
 
   bool has(const std::string& name) const { return column.contains(name); }
@@ -47,9 +48,8 @@ struct Row {
   }
   double number(const std::string& name) const {
     double v = 0;
-    if (!parse_number(fields[column.at(name)], v))
-      lines.fail(
-          fmt::format("field {}: '{}' is not a finite number", name, fields[column.at(name)]));
+    if (!numbers.parse(fields[column.at(name)], v))
+      lines.fail(fmt::format("field {}: {}", name, numbers.complaint(fields[column.at(name)])));
     return v;
   }
   int whole(const std::string& name, double most) const {
@@ -81,33 +81,54 @@ ContourPoint point_of(const Row& row) {
   return p;
 }
 
+/// A frame's points are told apart by their numbers, flesh points by their names, or rows of a
+/// frame stand together.
+void count(FrameRows& frames, const Row& row, const ContourPoint& point) {
+  const bool listed = point.kind == "curve" || point.kind == "surface" || point.kind == "volume";
+  if (!row.text("point").empty())
+    frames.count(fmt::format("{} {}", point.kind, point.slice), row.number("point"));
+  else if (listed) frames.expect_together();
+  else frames.count(point.kind, 1);
+}
+
 RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
   std::string line;
-  if (!lines.next(line)) lines.fail("the file is empty; expected a header line");
-  const auto header = split_fields(line, ',');
+  if (!lines.next_filled(line)) lines.fail("the file is empty; expected a header line");
+  const char separator = separator_of(line);
+  const auto header = fields_of(line, separator);
   const Columns column = columns_of(header, lines);
-  ContourFile file;
-  std::map<int, size_t> index;
-  while (lines.next(line)) {
-    if (trimmed(line).empty()) continue;
-    const Row row{column, lines, split_fields(line, ',')};
+  TableNumbers numbers(separator);
+  FrameRows frames(lines);
+  while (lines.next_filled(line)) {
+    const Row row{column, lines, numbers, fields_of(line, separator)};
     if (row.fields.size() != header.size())
-      lines.fail(fmt::format("{} fields; the header has {}", row.fields.size(), header.size()));
-    const int number = row.whole("frame", 1e9);
-    const auto [it, fresh] = index.try_emplace(number, file.frames.size());
-    if (fresh) file.frames.emplace_back().number = number;
-    ContourFrame& frame = file.frames[it->second];
-    ContourPoint point = point_of(row);
-    if (frame.label.empty()) frame.label = row.text("label");
-    if (!row.text("time_s").empty()) frame.time_s = row.number("time_s");
-    frame.points.push_back(std::move(point));
+      lines.fail(fmt::format("{} fields; the header has {}{}", row.fields.size(), header.size(),
+                             separator == ',' && row.fields.size() > header.size()
+                                 ? ". Decimal commas, or a comma in a text without quotes?"
+                                 : ""));
+    RowFrame of{
+        row.whole("frame", 1e9), row.text("recording"), row.text("speaker"), row.text("label"), {}};
+    if (!row.text("time_s").empty()) of.time_s = row.number("time_s");
+    ContourFrame& frame = frames.frame(of);
+    frame.points.push_back(point_of(row));
+    count(frames, row, frame.points.back());
   }
-  if (file.frames.empty()) lines.fail("the file has a header but no point");
-  return {std::move(file), {}};
+  if (frames.empty()) lines.fail("the file has a header but no point");
+  RawContours raw;
+  raw.file.frames = frames.take();
+  if (numbers.has_commas()) raw.file.remarks.push_back("numbers have decimal commas");
+  return raw;
 }
 
-bool known_by_line(const FileStart& start) { return start.line.find(',') != std::string::npos; }
+/// The columns that it cannot be without, by any separator.
+bool known_by_line(const FileStart& start) {
+  bool frame = false, x = false, z = false;
+  for (const std::string& field : fields_of(start.line, separator_of(start.line)))
+    frame = frame || trimmed(field) == "frame", x = x || trimmed(field) == "x_mm",
+    z = z || trimmed(field) == "z_mm";
+  return (frame && x && z) || start.line.find(',') != std::string::npos;
+}
 
 }  // namespace
 

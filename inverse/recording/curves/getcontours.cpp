@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 
-#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/base/file_axes.hpp"
+#include "inverse/recording/base/frame_rows.hpp"
 
 namespace genio {
 namespace {
 
 /// Where the numbers of a row stand. Long tables have one knot a row, wide ones all of a frame.
 struct Layout {
-  size_t frame = 0, time = 0, note = 0;
-  bool has_note = false;
+  size_t frame = 0, time = 0;
+  std::optional<size_t> note, point;
   std::vector<std::pair<size_t, size_t>> knots;
   bool wide = false, millimetres = false;
 };
@@ -26,7 +26,8 @@ Layout layout_of(const std::vector<std::string>& header, const TableLines& lines
     if (!at.contains(needed)) lines.fail(fmt::format("column {} is missing", needed));
   Layout l;
   l.frame = at["FRAME"], l.time = at["TIME"];
-  if (at.contains("NOTE")) l.note = at["NOTE"], l.has_note = true;
+  if (at.contains("NOTE")) l.note = at["NOTE"];
+  if (at.contains("POINT")) l.point = at["POINT"];
   const auto pair = [&](const std::string& x, const std::string& y) {
     if (!at.contains(x) || !at.contains(y)) return false;
     l.knots.emplace_back(at[x], at[y]);
@@ -46,39 +47,44 @@ Layout layout_of(const std::vector<std::string>& header, const TableLines& lines
 RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
   std::string line;
-  if (!lines.next(line)) lines.fail("the file is empty; expected a header line");
+  if (!lines.next_filled(line)) lines.fail("the file is empty; expected a header line");
   const auto header = split_fields(line, '\t');
   const Layout l = layout_of(header, lines);
   RawContours raw{{}, FileAxes{l.millimetres ? "mm" : "px", "", l.millimetres ? "" : "down"}};
   raw.file.model_frame = false;
-  std::map<int, size_t> index;
-  while (lines.next(line)) {
-    if (trimmed(line).empty()) continue;
-    const auto fields = split_fields(line, '\t');
-    if (fields.size() < header.size())
-      lines.fail(fmt::format("{} fields; the header has {}", fields.size(), header.size()));
-    double number = 0, time = 0;
-    if (!parse_number(fields[l.frame], number) || number != std::floor(number) ||
-        std::abs(number) > 1e9)
-      lines.fail(fmt::format("field FRAME: '{}' is no whole number", fields[l.frame]));
-    parse_number(fields[l.time], time);
-    const auto [it, fresh] = index.try_emplace(int(number), raw.file.frames.size());
-    if (fresh) {
-      ContourFrame& frame = raw.file.frames.emplace_back();
-      frame.number = int(number), frame.time_s = time;
-      if (l.has_note) frame.label = trimmed(fields[l.note]);
-    }
+  FrameRows frames(lines);
+  TableNumbers numbers('\t');
+  while (lines.next_filled(line)) {
+    auto fields = split_fields(line, '\t');
+    if (fields.size() == header.size() + 1 && trimmed(fields.back()).empty()) fields.pop_back();
+    if (fields.size() != header.size())
+      lines.fail(fmt::format("{} fields; the header has {}. Is there a tab in the note?",
+                             fields.size(), header.size()));
+    const auto number = [&](size_t column) {
+      double value = 0;
+      if (!numbers.parse(fields[column], value))
+        lines.fail(fmt::format("field {}: {}", trimmed(header[column]),
+                               numbers.complaint(fields[column])));
+      return value;
+    };
+    const double n = number(l.frame);
+    if (n != std::floor(n) || std::abs(n) > 1e9)
+      lines.fail(fmt::format("field FRAME: {} is no whole number", in_quotes(fields[l.frame])));
+    RowFrame row{int(n), "", "", l.note ? trimmed(fields[*l.note]) : "", {}};
+    if (!is_missing(fields[l.time])) row.time_s = number(l.time);
+    ContourFrame& frame = frames.frame(row);
+    if (l.wide) frames.count("row", 1);
+    else if (l.point) frames.count("point", number(*l.point));
+    else frames.expect_together();
     for (const auto& [cx, cy] : l.knots) {
-      const std::string tx = trimmed(fields[cx]), ty = trimmed(fields[cy]);
-      if (tx.empty() || tx == "NaN") continue;
-      double x = 0, y = 0;
-      if (!parse_number(tx, x) || !parse_number(ty, y))
-        lines.fail(fmt::format("fields {}, {}: '{}', '{}'; expected two numbers", header[cx],
-                               header[cy], tx, ty));
-      raw.file.frames[it->second].points.push_back({{x, not_given, y}, 0, "curve"});
+      if (is_missing(fields[cx]) && is_missing(fields[cy])) continue;
+      const double x = number(cx), y = number(cy);
+      frame.points.push_back({{x, not_given, y}, 0, "curve"});
     }
   }
-  if (raw.file.frames.empty()) lines.fail("the file has a header but no point");
+  if (frames.empty()) lines.fail("the file has a header but no point");
+  raw.file.frames = frames.take();
+  if (numbers.has_commas()) raw.file.remarks.push_back("numbers have decimal commas");
   return raw;
 }
 

@@ -1,0 +1,42 @@
+#pragma once
+// What AAA's exports share: the columns before the knots, and which knots can be a tongue's.
+
+#include <optional>
+
+#include "inverse/recording/base/contour_format.hpp"
+#include "inverse/recording/base/table_text.hpp"
+
+namespace genio {
+
+/// Where a row says what was recorded.
+struct AaaColumns {
+  std::optional<size_t> speaker, recording, time, label;
+};
+
+AaaColumns aaa_columns(const std::vector<std::string>& titles);
+
+/// A frame of that number with what the row says of it. Throws InputError where text stands in
+/// place of a time or a date.
+ContourFrame aaa_frame(int number, const AaaColumns& columns,
+                       const std::vector<std::string>& fields, TableNumbers& numbers,
+                       const TableLines& lines);
+
+/// One knot as read. Its place is its number along the spline, missing ones counted.
+struct AaaKnot {
+  double x = 0, y = 0;  // [mm]
+  std::optional<double> confidence;
+};
+
+/// Counts of what was left out of a file, for its remarks.
+struct AaaLosses {
+  int knots = 0, far = 0, far_frames = 0, unsure = 0;
+};
+
+/// Adds the knots to the frame but for those of a confidence below `least`, and those of a tongue
+/// that lie beyond a gap no tongue has. The frame's note says what was left out.
+void add_knots(ContourFrame& frame, const std::vector<AaaKnot>& knots, double least, bool tongue,
+               AaaLosses& losses);
+
+void remark_losses(ContourFile& file, const AaaLosses& losses, double least);
+
+}  // namespace genio
