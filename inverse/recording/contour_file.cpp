@@ -6,7 +6,7 @@ namespace genio {
 
 RawContours read_raw(const std::string& path, const ReadOptions& options) {
   const ContourFormat& format =
-      options.format == "auto" ? format_of(path) : format_named(options.format);
+      options.format == "auto" ? format_of(path, options) : format_named(options.format);
   RawContours raw = format.read(path, options);
   raw.file.format = format.traits;
   return raw;

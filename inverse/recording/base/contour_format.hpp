@@ -22,6 +22,7 @@ struct FileStart {
   std::string ending;  ///< ".pos", in small letters
   std::string bytes;   ///< the first four
   std::string line;    ///< the first that is not blank
+  bool sensors_named = false;  ///< the caller names sensors: it is a recording of flesh points
 };
 
 /// A small file of a format, whole, and what its reader has to be told.
