@@ -42,8 +42,8 @@ ContourFormat ema_format() {
   format.read = [](const std::string& path, const ReadOptions& o) {
     const ContourFormat& found = format_of(path, o);
     if (found.traits.content != Content::sensors)
-      throw InputError(fmt::format("{}: is of format {}, not a recording of sensors", path,
-                                   found.traits.name));
+      throw InputError(
+          fmt::format("{}: is of format {}, not a recording of sensors", path, found.traits.name));
     return found.read(path, o);
   };
   return format;
@@ -55,9 +55,8 @@ const std::vector<ContourFormat>& contour_formats() {
   // A format that knows its files by less stands below those that know theirs by more.
   static const std::vector<ContourFormat> formats = [] {
     std::vector<ContourFormat> all = sensor_formats();
-    for (const ContourFormat& format :
-         {scan_format(), xrmb_palate_format(), getcontours_format(), edgetrak_format(),
-          aaa_format(), csv_format()})
+    for (const ContourFormat& format : {scan_format(), xrmb_palate_format(), getcontours_format(),
+                                        edgetrak_format(), aaa_format(), csv_format()})
       all.push_back(format);
     return all;
   }();

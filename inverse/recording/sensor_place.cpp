@@ -10,8 +10,8 @@
 namespace genio {
 namespace {
 
-constexpr double smallest_scale = 0.75, largest_scale = 1.3, stretch = 0.3;
-constexpr double slack = 3e-3;        // of gluing and of the line's chords [m]
+constexpr double smallest_scale = 0.75, largest_scale = 1.3, tissue_stretch = 0.3;
+constexpr double glue_slack = 3e-3;    // of gluing and of the line's chords [m]
 constexpr double first_behind = 0.01;  // where the first sensor sits, 5 to 15 mm behind the tip [m]
 constexpr size_t most_frames = 2000;   // that are looked at
 
@@ -156,7 +156,8 @@ std::map<std::string, double> places_by_distance(const Model& model, const Conto
   for (size_t k = 0; k < kinds.size(); ++k) {
     if (k > 0) {
       const double step = usual_distance(file, kinds[k - 1], kinds[k]);
-      arc += std::isnan(step) ? behind_tip(model, kinds[k]) - behind_tip(model, kinds[k - 1]) : step;
+      arc +=
+          std::isnan(step) ? behind_tip(model, kinds[k]) - behind_tip(model, kinds[k - 1]) : step;
     }
     places[kinds[k]] = arc;
   }
@@ -172,8 +173,8 @@ std::string place_contradiction(const Model& model, const ContourFile& file) {
       const double seen = usual_distance(file, kinds[i], kinds[j]);
       const double modelled = (at_rest(model, kinds[i]) - at_rest(model, kinds[j])).norm();
       if (std::isnan(seen)) continue;
-      const bool near = seen + slack < modelled * smallest_scale * (1 - stretch);
-      const bool far = seen - slack > modelled * largest_scale * (1 + stretch);
+      const bool near = seen + glue_slack < modelled * smallest_scale * (1 - tissue_stretch);
+      const bool far = seen - glue_slack > modelled * largest_scale * (1 + tissue_stretch);
       if (!near && !far) continue;
       const double ratio = near ? modelled / (seen + 1e-4) : seen / (modelled + 1e-4);
       if (ratio <= worst_ratio) continue;

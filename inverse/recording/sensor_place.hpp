@@ -1,5 +1,6 @@
 #pragma once
-// Where a sensor is glued: a landmark of the tongue, a node, or a length along its midsagittal line.
+// Where a sensor is glued: a landmark of the tongue, a node, or a length along its midsagittal
+// line.
 
 #include <map>
 

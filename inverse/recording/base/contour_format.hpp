@@ -19,9 +19,9 @@ struct RawContours {
 
 /// What a file shows of itself before it is read.
 struct FileStart {
-  std::string ending;  ///< ".pos", in small letters
-  std::string bytes;   ///< the first four
-  std::string line;    ///< the first that is not blank
+  std::string ending;          ///< ".pos", in small letters
+  std::string bytes;           ///< the first four
+  std::string line;            ///< the first that is not blank
   bool sensors_named = false;  ///< the caller names sensors: it is a recording of flesh points
 };
 

@@ -55,9 +55,10 @@ SensorTable samples(const std::string& bytes, size_t first, size_t channels, dou
                     "no samples of {} channels of 7 floats",
                     path, strange, given, farthest, channels));
   if (strange > 0)
-    table.remarks.push_back(fmt::format("{} of {} positions are farther than {:.0f} mm from the "
-                                        "origin; left out",
-                                        strange, given, farthest));
+    table.remarks.push_back(
+        fmt::format("{} of {} positions are farther than {:.0f} mm from the "
+                    "origin; left out",
+                    strange, given, farthest));
   if (there % size != 0)
     table.remarks.push_back(
         fmt::format("the file is cut short: {} whole samples are read; the last {} bytes are no "
@@ -103,15 +104,14 @@ std::string example() {
 ContourFormat ag50x_format() {
   ReadOptions sensors;
   sensors.sensors = {{"1", "tip"}};
-  return {.traits = {.name = "ag50x", .content = Content::sensors},
-          .about = "Carstens AG500 and AG501 .pos",
-          .known_by_bytes =
-              [](const FileStart& start) {
-                return start.bytes == "AG50" || start.ending == ".pos";
-              },
-          .known_by_line = {},
-          .read = read,
-          .example = {.name = "sweep.pos", .text = example(), .options = sensors}};
+  return {
+      .traits = {.name = "ag50x", .content = Content::sensors},
+      .about = "Carstens AG500 and AG501 .pos",
+      .known_by_bytes =
+          [](const FileStart& start) { return start.bytes == "AG50" || start.ending == ".pos"; },
+      .known_by_line = {},
+      .read = read,
+      .example = {.name = "sweep.pos", .text = example(), .options = sensors}};
 }
 
 }  // namespace genio

@@ -9,12 +9,12 @@
 namespace genio {
 namespace {
 
-constexpr double high_rms = 30;      // of AG50x, in its own units; a good sensor has 3 to 15
-constexpr double rms_factor = 5;     // over the sensor's median
-constexpr size_t frozen_run = 5;     // samples at least
-constexpr double others_move = 2;    // [mm] meanwhile, at least
-constexpr double jump = 15;          // [mm] from one sample to the next
-constexpr double jump_factor = 8;    // over the others' steps and over the sensor's usual one
+constexpr double high_rms = 30;    // of AG50x, in its own units; a good sensor has 3 to 15
+constexpr double rms_factor = 5;   // over the sensor's median
+constexpr size_t frozen_run = 5;   // samples at least
+constexpr double others_move = 2;  // [mm] meanwhile, at least
+constexpr double jump = 15;        // [mm] from one sample to the next
+constexpr double jump_factor = 8;  // over the others' steps and over the sensor's usual one
 
 double median(std::vector<double> v) {
   if (v.empty()) return 0;

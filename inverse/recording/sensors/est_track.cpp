@@ -104,8 +104,8 @@ void read_rows(SensorTable& table, const SensorChannels& sensors, TableLines& li
       for (std::string word; words >> word;) v.push_back(number(word, lines));
     }
     if (v.size() != width)
-      lines.fail(fmt::format("{} fields; expected time, flag and {} channels", v.size(),
-                             width - before));
+      lines.fail(
+          fmt::format("{} fields; expected time, flag and {} channels", v.size(), width - before));
     if (!std::isfinite(v[0])) lines.fail("no time in the first column");
     add(table, sensors, v, scale);
   }

@@ -30,10 +30,10 @@ std::string sensor_list(const SensorTable& table) {
 
 RawContours sensor_frames(const std::string& path, SensorTable table, const ReadOptions& o) {
   if (o.sensors.empty())
-    throw InputError(
-        fmt::format("{}: say what its sensors are stuck to, --sensors 5=tip+3mm,3=dorsum (tip, blade, "
-                    "dorsum, root, a length behind one of them, node:N); it has{}",
-                    path, sensor_list(table)));
+    throw InputError(fmt::format(
+        "{}: say what its sensors are stuck to, --sensors 5=tip+3mm,3=dorsum (tip, blade, "
+        "dorsum, root, a length behind one of them, node:N); it has{}",
+        path, sensor_list(table)));
   std::vector<std::pair<size_t, std::string>> used;
   for (const auto& [sensor, what] : o.sensors) {
     const auto it = std::find(table.names.begin(), table.names.end(), sensor);

@@ -13,8 +13,8 @@ namespace {
 constexpr size_t shown = 40;  // characters of a field in a message
 
 bool marks_missing(const std::string& field) {
-  static constexpr std::array marks = {"", "*", "NA", "NaN", "nan", "NAN", "N/A", "Inf", "inf",
-                                       "-Inf", "-inf"};
+  static constexpr std::array marks = {"",    "*",   "NA",  "NaN",  "nan", "NAN",
+                                       "N/A", "Inf", "inf", "-Inf", "-inf"};
   return std::find(marks.begin(), marks.end(), field) != marks.end();
 }
 

@@ -83,9 +83,9 @@ std::vector<std::string> track_names(const Header& h) {
   std::vector<std::string> names;
   for (const Column& c : h.columns)
     for (size_t i = 0; i < c.count; ++i)
-      names.push_back(c.count == 1                    ? c.name
+      names.push_back(c.count == 1                       ? c.name
                       : i < std::min<size_t>(3, c.count) ? c.name + "_" + "xyz"[i]
-                                                      : "");
+                                                         : "");
   return names;
 }
 
