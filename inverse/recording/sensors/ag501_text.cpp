@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "inverse/recording/base/sensor_text.hpp"
 #include "inverse/recording/sensors/sensor_channels.hpp"
-#include "inverse/recording/sensors/sensor_text.hpp"
 
 namespace genio {
 namespace {

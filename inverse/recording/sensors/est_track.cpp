@@ -7,8 +7,8 @@
 #include <cstring>
 #include <sstream>
 
+#include "inverse/recording/base/sensor_text.hpp"
 #include "inverse/recording/sensors/sensor_channels.hpp"
-#include "inverse/recording/sensors/sensor_text.hpp"
 
 namespace genio {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "inverse/recording/base/sensor_text.hpp"
 #include "inverse/recording/sensors/sensor_channels.hpp"
-#include "inverse/recording/sensors/sensor_text.hpp"
 
 namespace genio {
 namespace {

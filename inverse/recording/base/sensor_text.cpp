@@ -1,4 +1,4 @@
-#include "inverse/recording/sensors/sensor_text.hpp"
+#include "inverse/recording/base/sensor_text.hpp"
 
 #include <fmt/format.h>
 
