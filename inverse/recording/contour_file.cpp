@@ -12,7 +12,7 @@ namespace {
 
 const ContourFormat& format_for(const std::string& path, const ReadOptions& o) {
   if (o.format != "auto") return format_named(o.format);
-  return o.columns.empty() ? format_of(path) : format_named("columns");
+  return o.columns.empty() ? format_of(path, o) : format_named("columns");
 }
 
 /// Throws InputError where an option is given that files of the format have no use for.

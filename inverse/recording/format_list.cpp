@@ -17,6 +17,8 @@
 #include "inverse/recording/curves/usc_pts.hpp"
 #include "inverse/recording/scans/scan.hpp"
 #include "inverse/recording/sensors/ema.hpp"
+#include "inverse/recording/sensors/ssff.hpp"
+#include "inverse/recording/sensors/xrmb.hpp"
 
 namespace genio {
 namespace {
@@ -35,20 +37,40 @@ std::string first_bytes(const std::string& path) {
   return bytes.substr(0, size_t(in.gcount()));
 }
 
+/// The name for whichever format of sensors a file has.
+ContourFormat ema_format() {
+  ContourFormat format;
+  format.traits = {.name = "ema", .content = Content::sensors};
+  format.about = "any of the formats of sensors";
+  format.read = [](const std::string& path, const ReadOptions& o) {
+    const ContourFormat& found = format_of(path, o);
+    if (found.traits.content != Content::sensors)
+      throw InputError(
+          fmt::format("{}: is of format {}, not a recording of sensors", path, found.traits.name));
+    return found.read(path, o);
+  };
+  return format;
+}
+
 }  // namespace
 
 const std::vector<ContourFormat>& contour_formats() {
   // A format that knows its files by less stands below those that know theirs by more.
-  static const std::vector<ContourFormat> formats = {
-      ema_format(),        scan_format(),    getcontours_format(),
-      deeplabcut_format(), usc_pts_format(), edgetrak_format(),
-      columns_format(),    aaa_format(),     csv_format(),
-  };
+  static const std::vector<ContourFormat> formats = [] {
+    std::vector<ContourFormat> all = sensor_formats();
+    for (const ContourFormat& format :
+         {scan_format(), xrmb_palate_format(), getcontours_format(), deeplabcut_format(),
+          usc_pts_format(), edgetrak_format(), columns_format(), aaa_format(), csv_format()})
+      all.push_back(format);
+    return all;
+  }();
   return formats;
 }
 
 const ContourFormat& format_named(const std::string& name) {
-  std::vector<std::string> names = {"auto"};
+  static const ContourFormat any_sensors = ema_format();
+  if (name == any_sensors.traits.name) return any_sensors;
+  std::vector<std::string> names = {"auto", any_sensors.traits.name};
   for (const ContourFormat& format : contour_formats()) {
     if (format.traits.name == name) return format;
     names.push_back(format.traits.name);
@@ -57,15 +79,24 @@ const ContourFormat& format_named(const std::string& name) {
                                nearest_name(name, names), format_choices()));
 }
 
-const ContourFormat& format_of(const std::string& path) {
-  FileStart start{ending(path), first_bytes(path), {}, {}};
+const ContourFormat& format_of(const std::string& path, const ReadOptions& options) {
+  const std::string file = joined_paths(path).front();
+  FileStart start{ending(file), first_bytes(file), {}, {}};
+  start.sensors_named = !options.sensors.empty();
   for (const ContourFormat& format : contour_formats())
     if (format.known_by_bytes && format.known_by_bytes(start)) return format;
-  TableLines lines(path);
+  TableLines lines(file);
   lines.next_filled(start.line);
   const int first = lines.number();
   for (std::string line; start.more.size() < 3 && lines.next_filled(line);)
     start.more.push_back(line);
+  if (start.sensors_named) {
+    if (const ContourFormat* format = sensor_format_of(start)) return *format;
+    throw InputError(fmt::format(
+        "{}:{}: sensors are named, but it is no recording of sensors that is known; leave "
+        "--sensors out, or give --format",
+        path, std::max(1, first)));
+  }
   for (const ContourFormat& format : contour_formats())
     if (format.known_by_line && format.known_by_line(start)) return format;
   throw InputError(fmt::format(
@@ -76,7 +107,7 @@ const ContourFormat& format_of(const std::string& path) {
 }
 
 std::string format_choices() {
-  std::string choices = "auto";
+  std::string choices = "auto, ema";
   for (const ContourFormat& format : contour_formats())
     choices += (&format == &contour_formats().back() ? " or " : ", ") + format.traits.name;
   return choices;

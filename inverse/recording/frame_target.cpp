@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forward/base/nearest_name.hpp"
 #include "forward/effects/surroundings/contact.hpp"
 #include "inverse/recording/base/file_axes.hpp"
 #include "inverse/recording/contour_file.hpp"
+#include "inverse/recording/sensor_place.hpp"
 #include "inverse/target/tissue_point.hpp"
 
 namespace genio {
@@ -22,31 +22,9 @@ bool inside_bone(const Model& model, const Vec3& p) {
   return false;
 }
 
-int flesh_node(const Model& model, const std::string& name) {
-  if (name == "tip") return model.landmarks.tip;
-  if (name == "dorsum") return model.landmarks.dorsum;
-  if (name == "root") return model.landmarks.root;
-  if (name == "blade") {  // a third of the way from tip to dorsum along the line
-    const auto& line = model.midsagittal;
-    const auto tip = std::find(line.begin(), line.end(), model.landmarks.tip) - line.begin();
-    const auto top = std::find(line.begin(), line.end(), model.landmarks.dorsum) - line.begin();
-    return line[size_t(tip + (top - tip + 1) / 3)];
-  }
-  if (name.starts_with("node:")) {
-    char* end = nullptr;
-    const long n = std::strtol(name.c_str() + 5, &end, 10);
-    if (name.size() > 5 && !*end && n >= 0 && n < long(model.mesh.nodes.size())) return int(n);
-    throw InputError(
-        fmt::format("kind '{}': expected node:0 to node:{}", name, model.mesh.nodes.size() - 1));
-  }
-  throw InputError(fmt::format("kind '{}': unknown; did you mean {}?", name,
-                               nearest_name(name, {"curve", "surface", "volume", "tip", "blade",
-                                                   "dorsum", "root", "node:0"})));
-}
-
 std::vector<std::pair<int, double>> flesh(const Model& model, const ContourPoint& p) {
   if (p.kind == "volume") return tissue_point(model.mesh, p.rest);
-  return {{flesh_node(model, p.kind), 1.0}};
+  return sensor_place(model, p.kind);
 }
 
 }  // namespace

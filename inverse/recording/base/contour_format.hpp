@@ -23,6 +23,7 @@ struct FileStart {
   std::string bytes;              ///< the first four
   std::string line;               ///< the first that is not blank
   std::vector<std::string> more;  ///< up to three that are not blank after it
+  bool sensors_named = false;     ///< the caller names sensors: a recording of flesh points
 };
 
 /// A small file of a format, whole, and what its reader has to be told.

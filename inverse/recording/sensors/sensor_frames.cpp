@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "inverse/recording/sensors/bad_samples.hpp"
 
 namespace genio {
 namespace {
@@ -24,13 +28,12 @@ std::string sensor_list(const SensorTable& table) {
 
 }  // namespace
 
-RawContours sensor_frames(const std::string& path, const SensorTable& table, const ReadOptions& o) {
+RawContours sensor_frames(const std::string& path, SensorTable table, const ReadOptions& o) {
   if (o.sensors.empty())
-    throw InputError(
-        fmt::format("{}: say what its sensors are stuck to, --sensors 3=dorsum,5=tip (tip, blade, "
-                    "dorsum, root, "
-                    "node:N); it has{}",
-                    path, sensor_list(table)));
+    throw InputError(fmt::format(
+        "{}: say what its sensors are stuck to, --sensors 5=tip+3mm,3=dorsum (tip, blade, "
+        "dorsum, root, a length behind one of them, node:N); it has{}",
+        path, sensor_list(table)));
   std::vector<std::pair<size_t, std::string>> used;
   for (const auto& [sensor, what] : o.sensors) {
     const auto it = std::find(table.names.begin(), table.names.end(), sensor);
@@ -40,14 +43,22 @@ RawContours sensor_frames(const std::string& path, const SensorTable& table, con
     used.emplace_back(size_t(it - table.names.begin()), what);
   }
   const double rate = o.rate_hz > 0 ? o.rate_hz : table.rate_hz;
-  RawContours raw{{}, FileAxes{"mm", "right", "up"}};
+  for (const auto& [c, what] : used) {
+    drop_bad_samples(table, c, what != "palate");
+    if (std::none_of(table.samples.begin(), table.samples.end(),
+                     [&, c = c](const auto& row) { return row[c].allFinite(); }))
+      table.remarks.push_back(fmt::format("sensor {} ({}) has no value", table.names[c], what));
+  }
+  RawContours raw{{}, table.axes};
   raw.file.model_frame = false;
-  if (rate == 0)
+  raw.file.remarks = std::move(table.remarks);
+  if (rate == 0 && table.times_s.empty())
     raw.file.remarks.push_back("no sampling rate in the file: times are 0 (--rate-hz)");
   for (size_t s = 0; s < table.samples.size(); ++s) {
     ContourFrame& frame = raw.file.frames.emplace_back();
     frame.number = int(s) + 1;
-    if (rate > 0) frame.time_s = double(s) / rate;
+    if (s < table.times_s.size()) frame.time_s = table.times_s[s];
+    else if (rate > 0) frame.time_s = double(s) / rate;
     for (const auto& [c, what] : used) {
       const Vec3& p = table.samples[s][c];
       if (!p.allFinite()) continue;
@@ -56,6 +67,17 @@ RawContours sensor_frames(const std::string& path, const SensorTable& table, con
     if (frame.points.empty()) frame.note = "no sensor has a value";
   }
   return raw;
+}
+
+std::string sensor_file_bytes(const std::string& path) {
+  constexpr std::uintmax_t largest = std::uintmax_t(2) << 30;
+  std::error_code e;
+  if (!std::filesystem::is_regular_file(path, e)) throw InputError(path + ": no such file");
+  if (std::filesystem::file_size(path, e) > largest)
+    throw InputError(path + ": is larger than 2 GB; no recording of sensors is");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace genio

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <filesystem>
 #include <limits>
-#include <map>
 #include <sstream>
 
-#include "inverse/recording/sensors/sensor_frames.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/sensors/sensor_channels.hpp"
 
 namespace genio {
 namespace {
@@ -22,7 +23,7 @@ struct Column {
 
 struct Header {
   std::vector<Column> columns;
-  double rate = 0;
+  double rate = 0, start = 0;
   size_t size = 0, record = 0;  // bytes
 };
 
@@ -40,6 +41,7 @@ Header read_header(const std::string& bytes, const std::string& path) {
     std::string word;
     words >> word;
     if (word == "Record_Freq") words >> h.rate;
+    if (word == "Start_Time") words >> h.start;
     if (word == "Machine" && words >> word && word != "IBM-PC")
       throw InputError(fmt::format("{}:{}: Machine {}; only IBM-PC (little endian) is read", path,
                                    number, word));
@@ -70,87 +72,115 @@ double number(const char* at, const Column& c) {
                         : as(short());
 }
 
-/// "tt_posy" -> ("tt", 1): a scalar track of one coordinate.
-std::pair<std::string, int> coordinate(const std::string& name) {
-  if (name.size() < 2) return {name, -1};
-  const int axis = std::string("xyz").find(char(std::tolower(name.back()))) == std::string::npos
-                       ? -1
-                       : std::tolower(name.back()) - 'x';
-  std::string stem = name.substr(0, name.size() - 1);
-  for (const char* tail : {"_pos", "pos", "_", "-", "."})
-    if (stem.size() > std::strlen(tail) && stem.ends_with(tail))
-      stem.resize(stem.size() - std::strlen(tail));
-  return {stem, axis};
-}
-
-/// The sensors of a file, and where in a record their coordinates lie.
-struct Sensors {
-  struct Source {
-    size_t column, offset;
-  };
-  std::vector<Source> sources;
-  std::vector<std::string> names;
-  std::vector<std::array<int, 3>> parts;  ///< of each sensor: the source of x, y, z; -1: none
+/// One file: its samples from `start_s` on.
+struct Take {
+  SensorTable table;
+  double start_s = 0;
 };
 
-Sensors sensors_of(const Header& h) {
-  Sensors s;
-  std::map<std::string, size_t> by_stem;
-  size_t offset = 0;
-  for (size_t k = 0; k < h.columns.size(); ++k) {
-    const Column& c = h.columns[k];
-    const int first = int(s.sources.size());
-    if (c.count == 1) {
-      const auto [stem, axis] = coordinate(c.name);
-      if (axis >= 0) {
-        const auto [it, fresh] = by_stem.try_emplace(stem, s.parts.size());
-        if (fresh) s.names.push_back(stem), s.parts.push_back({-1, -1, -1});
-        s.parts[it->second][size_t(axis)] = first;
-        s.sources.push_back({k, offset});
-      }
-    } else {
-      s.names.push_back(c.name);
-      s.parts.push_back(c.count == 2 ? std::array{first, -1, first + 1}
-                                     : std::array{first, first + 1, first + 2});
-      for (size_t i = 0; i < std::min<size_t>(3, c.count); ++i)
-        s.sources.push_back({k, offset + i * c.bytes});
-    }
-    offset += c.count * c.bytes;
+/// The names of all values of a record: x, y, z of a column with several.
+std::vector<std::string> track_names(const Header& h) {
+  std::vector<std::string> names;
+  for (const Column& c : h.columns)
+    for (size_t i = 0; i < c.count; ++i)
+      names.push_back(c.count == 1                       ? c.name
+                      : i < std::min<size_t>(3, c.count) ? c.name + "_" + "xyz"[i]
+                                                         : "");
+  return names;
+}
+
+Take read_one(const std::string& path) {
+  const std::string bytes = sensor_file_bytes(path);
+  if (!bytes.starts_with("SSFF"))
+    throw InputError(path + ": is no SSFF file; only SSFF files are joined");
+  const Header h = read_header(bytes, path);
+  const SensorChannels sensors(track_names(h));
+  if (sensors.names().empty()) {
+    std::string columns;
+    for (const Column& c : h.columns) columns += " " + c.name;
+    throw InputError(fmt::format(
+        "{}: its tracks{} make no sensor; expected TTx_raw, TTy_raw, TT_posx or the like", path,
+        columns));
   }
-  // Two scalar tracks of a sensor are its horizontal and its vertical one, whatever they are
-  // called.
-  for (auto& p : s.parts)
-    if (p[2] < 0) std::swap(p[1], p[2]);
-  return s;
+  Take take{{sensors.names(), {}, h.rate}, h.start};
+  for (size_t at = h.size; at + h.record <= bytes.size();) {
+    std::vector<double> values;
+    for (const Column& c : h.columns)
+      for (size_t i = 0; i < c.count; ++i, at += c.bytes)
+        values.push_back(number(bytes.data() + at, c));
+    take.table.samples.push_back(sensors.positions(values));
+  }
+  if (take.table.samples.empty()) throw InputError(path + ": has no record");
+  if (const size_t rest = (bytes.size() - h.size) % h.record; rest != 0)
+    take.table.remarks.push_back(fmt::format(
+        "{} is cut short: {} whole records are read; the last {} bytes are no whole record of {}",
+        path, take.table.samples.size(), rest, h.record));
+  return take;
+}
+
+/// Adds the sensors of a file to those of the first, at the times of the first's samples.
+void join(Take& all, const Take& more, const std::string& path) {
+  for (const auto& name : more.table.names)
+    if (std::find(all.table.names.begin(), all.table.names.end(), name) != all.table.names.end())
+      throw InputError(fmt::format("{}: another of the files has a sensor {} as well", path, name));
+  all.table.names.insert(all.table.names.end(), more.table.names.begin(), more.table.names.end());
+  int met = 0;
+  for (size_t s = 0; s < all.table.samples.size(); ++s) {
+    const double t = all.start_s + double(s) / all.table.rate_hz;
+    const double at = std::round((t - more.start_s) * more.table.rate_hz);
+    const bool inside = at >= 0 && at < double(more.table.samples.size());
+    met += inside;
+    for (size_t k = 0; k < more.table.names.size(); ++k)
+      all.table.samples[s].push_back(
+          inside ? more.table.samples[size_t(at)][k]
+                 : Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  }
+  if (met == 0)
+    throw InputError(path + ": has no sample at the times of the first file; is it another take?");
+  if (size_t(met) < all.table.samples.size())
+    all.table.remarks.push_back(fmt::format("{} has samples at {} of the first file's {} times",
+                                            path, met, all.table.samples.size()));
+  all.table.remarks.insert(all.table.remarks.end(), more.table.remarks.begin(),
+                           more.table.remarks.end());
+}
+
+RawContours read(const std::string& path, const ReadOptions& o) {
+  const auto paths = joined_paths(path);
+  Take all = read_one(paths.front());
+  for (size_t k = 1; k < paths.size(); ++k) join(all, read_one(paths[k]), paths[k]);
+  for (size_t s = 0; s < all.table.samples.size(); ++s)
+    all.table.times_s.push_back(all.start_s + double(s) / all.table.rate_hz);
+  return sensor_frames(path, std::move(all.table), o);
+}
+
+std::string example() {
+  std::string text =
+      "SSFF -- (c) SHLRC\nMachine IBM-PC\nRecord_Freq 200.0\nStart_Time 0.0\n"
+      "Column TTx_raw FLOAT 1\nColumn TTz_raw FLOAT 1\n-----------------\n";
+  for (const float v : {12.5f, -3.25f}) text.append(reinterpret_cast<const char*>(&v), sizeof v);
+  return text;
 }
 
 }  // namespace
 
-RawContours read_ssff(const std::string& path, const ReadOptions& o) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path + ": no such file");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  const Header h = read_header(bytes, path);
-  if ((bytes.size() - h.size) % h.record != 0)
-    throw InputError(fmt::format("{}: {} bytes of records; expected a multiple of {}", path,
-                                 bytes.size() - h.size, h.record));
-  const Sensors sensors = sensors_of(h);
-  SensorTable table{sensors.names, {}, h.rate};
-  for (size_t at = h.size; at < bytes.size(); at += h.record) {
-    auto& row = table.samples.emplace_back();
-    for (const auto& p : sensors.parts) {
-      Vec3 v = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-      for (int i = 0; i < 3; ++i)
-        if (p[size_t(i)] >= 0) {
-          const Sensors::Source& s = sensors.sources[size_t(p[size_t(i)])];
-          v[i] = number(bytes.data() + at + s.offset, h.columns[s.column]);
-        }
-      if (std::isnan(v[1])) v[1] = 0;
-      row.push_back(v);
-    }
-  }
-  if (table.samples.empty()) throw InputError(path + ": has no record");
-  return sensor_frames(path, table, o);
+std::vector<std::string> joined_paths(const std::string& path) {
+  std::error_code e;
+  if (std::filesystem::exists(path, e)) return {path};
+  std::vector<std::string> paths;
+  for (const auto& one : split_fields(path, ','))
+    if (!trimmed(one).empty()) paths.push_back(trimmed(one));
+  return paths.empty() ? std::vector{path} : paths;
+}
+
+ContourFormat ssff_format() {
+  ReadOptions sensors;
+  sensors.sensors = {{"TT", "tip"}};
+  return {.traits = {.name = "ssff", .content = Content::sensors},
+          .about = "SSFF tracks (EMU); files of one take are joined by commas",
+          .known_by_bytes = [](const FileStart& start) { return start.bytes == "SSFF"; },
+          .known_by_line = {},
+          .read = read,
+          .example = {.name = "take.tt", .text = example(), .options = sensors}};
 }
 
 }  // namespace genio

@@ -1,0 +1,31 @@
+#pragma once
+// Where a sensor is glued: a landmark of the tongue, a node, or a length along its midsagittal
+// line.
+
+#include <map>
+
+#include "forward/model/model.hpp"
+#include "inverse/recording/base/contours.hpp"
+
+namespace genio {
+
+/// A sensor's place as text: "tip", "blade", "dorsum", "root", "node:N", each with or without a
+/// length behind it along the midsagittal line of the tongue at rest, "tip+13mm" ("-": in front of
+/// it). The weights of nodes whose weighted positions are the place's. Throws InputError that
+/// names what there is.
+std::vector<std::pair<int, double>> sensor_place(const Model& model, const std::string& place);
+
+/// Its arc length behind the tip at rest [m]; of a node off the midsagittal line NaN.
+double behind_tip(const Model& model, const std::string& place);
+
+/// What contradicts the places: two sensors whose distance, over all frames, no scale from 0.75 to
+/// 1.3 and no stretch of the tissue by 30 % brings to the model's. It names the two, both distances
+/// and places that fit. Empty where nothing does. Positions may be in any axes, in metres.
+std::string place_contradiction(const Model& model, const ContourFile& file);
+
+/// Places that fit the sensors' mutual distances: sensors in the order in which they lie behind the
+/// tip, the first about 10 mm behind it, each next by its usual distance from the one before. Of
+/// kind to arc length behind the tip [m].
+std::map<std::string, double> places_by_distance(const Model& model, const ContourFile& file);
+
+}  // namespace genio
