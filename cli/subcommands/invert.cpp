@@ -86,6 +86,8 @@ Question question(const InvertOptions& o, double noise) {
           {"mm_per_px", m.read.mm_per_px},
           {"facing", m.read.facing},
           {"y_grows", m.read.up},
+          {"axes", m.read.axes},
+          {"forced", m.force},
           {"sensors", m.sensors},
           {"columns", m.columns},
           {"spline", m.read.spline},

@@ -90,12 +90,14 @@ int run_request(const RequestOptions& o) {
                            o.timeout_s));
   bool all = true;
   for (const auto& frame : measured.frames) {
+    bool told = false;
     const auto reply =
         client.request(request_of(frame, measured.noise, o), o.timeout_s, [&](const progress_t& p) {
-          if (!o.json)
-            fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
+          if (o.json) return;
+          fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
+          told = true;
         });
-    if (!o.json) fmt::print(stderr, "\n");
+    if (told) fmt::print(stderr, "\n");
     if (!reply)
       throw std::runtime_error(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
                                            choose_url(o.url), o.timeout_s));
@@ -129,8 +131,7 @@ Runner add_request(Options& options) {
   options.add("--deadline-s", o->deadline_s, "Time the server may compute", {.positive = true});
   options.add("--starts", o->starts, "Descents, to find other answers that fit",
               {.range = {{0, 1000}}});
-  options.add("--model", o->model, "Model to register with and to show in the picture",
-              {.only_with = {"--palate", "--out"}});
+  options.add("--model", o->model, "Model to register with and to show in the picture");
   options.flag("--json", o->json, "One JSON object a frame on standard output");
   options.add("--out", o->out, "Folder for pictures and numbers");
   const Options status =

@@ -14,7 +14,6 @@
 namespace genio {
 namespace {
 
-
 /// "5=tip" to what the reader takes.
 std::map<std::string, std::string> parsed_sensors(const std::vector<std::string>& sensors) {
   std::map<std::string, std::string> result;

@@ -78,6 +78,16 @@ std::string word(const nlohmann::json& answer, const char* key, const char* othe
   return it != answer.end() && it->is_string() ? it->get<std::string>() : otherwise;
 }
 
+AnswerRecord::Laid registration_of(const nlohmann::json& answer) {
+  const auto it = answer.find("registration");
+  const nlohmann::json laid = it == answer.end() ? nlohmann::json::object() : *it;
+  const auto doubtful = laid.find("doubtful");
+  return {.scale = number(laid, "scale"),
+          .tilt_deg = number(laid, "tilt_deg"),
+          .palate_rms_mm = number(laid, "palate_rms_mm"),
+          .doubtful = doubtful != laid.end() && *doubtful == true};
+}
+
 }  // namespace
 
 std::string answer_json(const AnswerView& view, int frame, int indent) {
@@ -116,6 +126,7 @@ std::optional<AnswerRecord> read_record(const std::string& line) {
   r.forces_N = numbers(answer, "forces_N"), r.sd_N = numbers(answer, "sd_N");
   r.activation = numbers(answer, "activation");
   r.estimated = estimated_values(answer);
+  r.registration = registration_of(answer);
   return r;
 }
 

@@ -24,7 +24,13 @@ struct AnswerRecord {
   double rms_mm = 0, max_mm = 0, chi2_per_dof = 0, wall_s = 0;
   std::map<std::string, double> forces_N, sd_N, activation;  ///< by muscle
   std::map<std::string, double> estimated;  ///< other unknowns, each in its own unit
-  std::string line;                         ///< as it was written
+  /// How the recording was laid beside the model; NaN where the answer does not tell.
+  struct Laid {
+    double scale, tilt_deg, palate_rms_mm;
+    bool doubtful;
+  };
+  Laid registration = {};
+  std::string line;  ///< as it was written
 
   bool converged() const { return status == "converged"; }
 };

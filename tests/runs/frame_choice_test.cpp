@@ -27,7 +27,7 @@ class FrameChoices : public testing::Test {
     write_text(
         path,
         "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n0 1 <exists> 2\n"
-        "\"IntervalTier\" \"phones\" 0 1 4\n0 0.1 \"\" 0.1 0.3 \"a\" 0.3 0.41 \"t\" 5 6 \"o\"\n"
+        "\"IntervalTier\" \"phones\" 0 1 4\n0 0.1 \"\" 0.1 0.3 \"a\" 0.3 0.42 \"t\" 5 6 \"o\"\n"
         "\"TextTier\" \"bursts\" 0 1 2\n0.352 \"t\" 0.353 \"k\"\n");
     return path;
   }
