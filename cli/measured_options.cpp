@@ -23,6 +23,10 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   std::vector<std::string> formats = {"auto"};
   for (const ContourFormat& format : contour_formats()) formats.push_back(format.traits.name);
   options.add("--format", o.read.format, format_choices(), {.suggested = formats});
+  options.add("--columns", o.columns,
+              "Columns of any long table: x=TITLE,y=TITLE,frame=TITLE,time=...,recording=...",
+              {.separator = ','});
+  options.add("--spline", o.read.spline, "The spline, or the body parts, to take of several");
   options.add("--units", o.read.units, "mm, cm, m, um or px, where the file does not say",
               {.suggested = {"mm", "cm", "m", "um", "px"}});
   options.add("--mm-per-px", o.read.mm_per_px, "Size of a pixel", {.positive = true});
@@ -42,9 +46,6 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
                "Answer although the registration fails its test; every result says so");
   options.flag("--registered", o.registered, "The file is in the model's frame already",
                {.not_with = {"--palate"}});
-  options.add("--columns", o.columns, "Which column of a table is what: x=3,y=tongue_y,time=t",
-              {.separator = ','});
-  options.add("--spline", o.read.spline, "The curve to take where the file names several");
   options.add("--frames", o.choice.frames, "A-B, counted from 1, or times as in 1.2s-1.8s");
   options.add("--textgrid", o.choice.textgrid,
               "Praat TextGrid: one frame a labelled interval or point, with its label");

@@ -36,6 +36,11 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
+/// Empty where it is not known.
+std::string csv_number(double number, int digits) {
+  return std::isnan(number) ? "" : fmt::format("{:.{}g}", number, digits);
+}
+
 /// 0 where it is not there.
 double value(const std::map<std::string, double>& by_muscle, const std::string& muscle) {
   const auto it = by_muscle.find(muscle);
@@ -64,15 +69,19 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
       break;
     }
   std::string csv =
-      "frame,time_s,label,recording,speaker,status,verdict,rms_mm,max_mm,chi2_per_dof";
+      "frame,time_s,label,recording,speaker,status,verdict,registration_scale,"
+      "registration_tilt_deg,registration_palate_rms_mm,registration_doubtful,rms_mm,max_mm,"
+      "chi2_per_dof";
   for (const auto& m : muscles) csv += fmt::format(",{}_N,{}_sd_N", m, m);
   csv += "\n";
   std::vector<Series> series;
   for (const auto& m : muscles) series.push_back({m, {}});
   for (const auto& [frame, a] : answers) {
-    csv += fmt::format(
-        "{},{},{},{},{},{},{}", frame, std::isnan(a.time_s) ? "" : fmt::format("{:.6g}", a.time_s),
-        csv_field(a.label), csv_field(a.recording), csv_field(a.speaker), a.status, a.verdict);
+    csv += fmt::format("{},{},{},{},{},{},{}", frame, csv_number(a.time_s, 6), csv_field(a.label),
+                       csv_field(a.recording), csv_field(a.speaker), a.status, a.verdict);
+    const AnswerRecord::Laid& laid = a.registration;
+    csv += fmt::format(",{},{},{},{}", csv_number(laid.scale, 4), csv_number(laid.tilt_deg, 4),
+                       csv_number(laid.palate_rms_mm, 4), laid.doubtful ? "yes" : "no");
     if (!a.converged()) {
       csv += std::string(3 + 2 * muscles.size(), ',') + "\n";
       continue;

@@ -19,7 +19,9 @@ constexpr size_t shown_lines = 3, shown_width = 72;
 std::string recognition(const ContourFormat& format) {
   const std::string ending = std::filesystem::path(format.example.name).extension().string();
   if (format.known_by_bytes) {
-    if (format.known_by_bytes({ending, "", ""})) return fmt::format("by its ending, {}", ending);
+    FileStart start{};
+    start.ending = ending;
+    if (format.known_by_bytes(start)) return fmt::format("by its ending, {}", ending);
     return "by its first bytes";
   }
   return format.known_by_line ? "by its first line" : "by --format alone";

@@ -11,9 +11,9 @@ namespace genio {
 
 /// As the command line gives it; what is empty asks for all.
 struct FrameChoice {
-  std::string frames;  ///< "7", "3-9", "1.2s-1.8s" or "1.2s"
-  std::string textgrid, tier;
-  std::vector<std::string> labels;
+  std::string frames = {};  ///< "7", "3-9", "1.2s-1.8s" or "1.2s"
+  std::string textgrid = {}, tier = {};
+  std::vector<std::string> labels = {};
 };
 
 /// The frames that are asked for, of all that the file `path` has. Those that a TextGrid names have

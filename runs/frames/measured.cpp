@@ -8,19 +8,19 @@
 
 #include "inverse/recording/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
-#include "runs/frames/column_options.hpp"
 #include "runs/frames/unused_options.hpp"
 
 namespace genio {
 namespace {
 
-/// "5=tip" to what the reader takes.
-std::map<std::string, std::string> parsed_sensors(const std::vector<std::string>& sensors) {
+/// "5=tip" to what the reader takes; `expected` is what the option's values look like.
+std::map<std::string, std::string> parsed_pairs(const std::vector<std::string>& pairs,
+                                                const char* option, const char* expected) {
   std::map<std::string, std::string> result;
-  for (const std::string& s : sensors) {
+  for (const std::string& s : pairs) {
     const auto equals = s.find('=');
     if (equals == 0 || equals == std::string::npos || equals + 1 == s.size())
-      throw InputError(fmt::format("--sensors {}: expected SENSOR=PLACE, as in 5=tip", s));
+      throw InputError(fmt::format("{} {}: expected {}", option, s, expected));
     result[s.substr(0, equals)] = s.substr(equals + 1);
   }
   return result;
@@ -111,8 +111,8 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   if (o.target.empty()) throw InputError("--target: a contour file is needed");
   if (!(o.noise_mm >= 0)) throw InputError("--noise-mm: must be above 0");
   ReadOptions read = o.read;
-  read.sensors = parsed_sensors(o.sensors);
-  read.columns = parsed_columns(o.columns);
+  read.sensors = parsed_pairs(o.sensors, "--sensors", "SENSOR=PLACE, as in 5=tip");
+  read.columns = parsed_pairs(o.columns, "--columns", "ROLE=TITLE, as in frame=uniqueframe");
   SessionFile target = read_session_file(o.target, read);
   const FormatTraits format = target.file.format;
   refuse_unused(o, format, target.file.model_frame);

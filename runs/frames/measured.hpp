@@ -20,7 +20,7 @@ struct MeasuredOptions {
   std::string target, palate, palate_sensor;
   FrameChoice choice;
   std::vector<std::string> sensors;  ///< "5=tip"
-  std::vector<std::string> columns;  ///< "x=tongue_x"
+  std::vector<std::string> columns;  ///< "frame=uniqueframe", of the target's table
   ReadOptions read;
   bool registered = false;  ///< already in the model's frame
   bool force = false;       ///< answer also on a registration that fails its test

@@ -43,12 +43,6 @@ void refuse_unused(const MeasuredOptions& o, const FormatTraits& format, bool re
     refuse("--palate", "--registered says that the file is in the model's frame already");
   if (o.read.mm_per_px > 0 && !o.read.units.empty() && o.read.units != "px")
     refuse("--mm-per-px", fmt::format("--units says {}", o.read.units));
-  if (!o.columns.empty() && !format.columns)
-    refuse("--columns",
-           fmt::format("{} is read as {}, which knows its columns", o.target, format.name));
-  if (!o.read.spline.empty() && !format.splines)
-    refuse("--spline",
-           fmt::format("{} is read as {}, which names no splines", o.target, format.name));
 }
 
 void refuse_unused_pixels(const MeasuredOptions& o, const FileAxes& axes) {

@@ -4,14 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "runs/frames/column_options.hpp"
-
 namespace genio {
 namespace {
 
-const FormatTraits curves{.name = "aaa", .splines = true},
-    sensors{.name = "ema", .content = Content::sensors}, own{.name = "csv"},
-    table{.name = "table", .columns = true};
+const FormatTraits curves{.name = "aaa"}, sensors{.name = "ema", .content = Content::sensors},
+    own{.name = "csv"};
 
 std::string refusal(const MeasuredOptions& o, const FormatTraits& format, bool registered) {
   try {
@@ -32,21 +29,19 @@ MeasuredOptions with(void (*set)(MeasuredOptions&)) {
 struct Case {
   const char* option;
   MeasuredOptions options;
-  bool for_curves, for_sensors, for_own, for_table;
+  bool for_curves, for_sensors, for_own;
 };
 
 std::vector<Case> cases() {
   return {
-      {"none", with([](auto&) {}), true, true, true, true},
-      {"--sensors", with([](auto& o) { o.sensors = {"3=tip"}; }), false, true, false, false},
-      {"--rate-hz", with([](auto& o) { o.read.rate_hz = 200; }), false, true, false, false},
-      {"--units", with([](auto& o) { o.read.units = "cm"; }), true, true, false, true},
-      {"--mm-per-px", with([](auto& o) { o.read.mm_per_px = 0.2; }), true, true, false, true},
-      {"--facing", with([](auto& o) { o.read.facing = "left"; }), true, true, false, true},
-      {"--y-grows", with([](auto& o) { o.read.up = "down"; }), true, true, false, true},
-      {"--palate", with([](auto& o) { o.palate = "palate"; }), true, true, false, true},
-      {"--columns", with([](auto& o) { o.columns = {"x=1"}; }), false, false, false, true},
-      {"--spline", with([](auto& o) { o.read.spline = "Tongue"; }), true, false, false, false},
+      {"none", with([](auto&) {}), true, true, true},
+      {"--sensors", with([](auto& o) { o.sensors = {"3=tip"}; }), false, true, false},
+      {"--rate-hz", with([](auto& o) { o.read.rate_hz = 200; }), false, true, false},
+      {"--units", with([](auto& o) { o.read.units = "cm"; }), true, true, false},
+      {"--mm-per-px", with([](auto& o) { o.read.mm_per_px = 0.2; }), true, true, false},
+      {"--facing", with([](auto& o) { o.read.facing = "left"; }), true, true, false},
+      {"--y-grows", with([](auto& o) { o.read.up = "down"; }), true, true, false},
+      {"--palate", with([](auto& o) { o.palate = "palate"; }), true, true, false},
   };
 }
 
@@ -54,7 +49,7 @@ TEST(UnusedOptions, EachIsTakenWhereItAppliesAndRefusedByNameElsewhere) {
   for (const Case& c : cases())
     for (const auto& [format, registered, applies] :
          {std::tuple{curves, false, c.for_curves}, std::tuple{sensors, false, c.for_sensors},
-          std::tuple{own, true, c.for_own}, std::tuple{table, false, c.for_table}}) {
+          std::tuple{own, true, c.for_own}}) {
       const std::string said = refusal(c.options, format, registered);
       if (applies) EXPECT_EQ(said, "none") << format.name;
       else
@@ -83,24 +78,6 @@ TEST(UnusedOptions, ANoiseIsRefusedOnlyWhereEveryPointHasItsOwn) {
   EXPECT_NO_THROW(refuse_unused_noise(o, frames));
   frames[0].points[1].sigma = 1e-3;
   EXPECT_THROW(refuse_unused_noise(o, frames), InputError);
-}
-
-TEST(ColumnOptions, TheySayWhichColumnIsWhat) {
-  const auto columns = parsed_columns({"x=tongue x", "y=4", "time=t=s"});
-  EXPECT_EQ(columns.at("x"), "tongue x");
-  EXPECT_EQ(columns.at("y"), "4");
-  EXPECT_EQ(columns.at("time"), "t=s");
-  EXPECT_TRUE(parsed_columns({}).empty());
-}
-
-TEST(ColumnOptions, WhatIsUnknownMissingOrSaidTwiceIsNamed) {
-  for (const std::vector<std::string>& columns : {std::vector<std::string>{"x"},
-                                                  {"=3"},
-                                                  {"x="},
-                                                  {"x=1"},
-                                                  {"x=1", "x=2", "y=3"},
-                                                  {"x=1", "y=2", "framme=3"}})
-    EXPECT_THROW(parsed_columns(columns), InputError) << columns.front();
 }
 
 }  // namespace

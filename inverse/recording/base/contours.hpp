@@ -39,8 +39,6 @@ struct FormatTraits {
   std::string name;  ///< as --format names it
   Content content = Content::curves;
   double noise = point_noise;  ///< what one assumes when nobody says [m]
-  bool splines = false;        ///< names its curves, so that one may be asked for
-  bool columns = false;        ///< asks which column is what
 };
 
 /// What no file says, or what the caller knows better.

@@ -2,17 +2,10 @@
 
 #include <cstdint>
 
+#include "inverse/recording/base/unicode.hpp"
+
 namespace genio {
 namespace {
-
-void append(std::string& text, uint32_t code) {
-  const auto put = [&](uint32_t byte) { text += char(byte); };
-  if (code < 0x80) return put(code);
-  if (code < 0x800) put(0xC0 | code >> 6);
-  else if (code < 0x10000) put(0xE0 | code >> 12), put(0x80 | (code >> 6 & 0x3F));
-  else put(0xF0 | code >> 18), put(0x80 | (code >> 12 & 0x3F)), put(0x80 | (code >> 6 & 0x3F));
-  put(0x80 | (code & 0x3F));
-}
 
 uint32_t byte_at(const std::string& bytes, size_t i) { return uint8_t(bytes[i]); }
 
@@ -31,30 +24,9 @@ std::string from_utf16(const std::string& bytes, bool big_first) {
       code = paired ? 0x10000 + ((code - 0xD800) << 10) + (low - 0xDC00) : unknown;
       if (paired) i += 2;
     }
-    if (i > 1 || code != 0xFEFF) append(text, code);
+    if (i > 1 || code != 0xFEFF) append_utf8(text, char32_t(code));
   }
   return text;
-}
-
-/// Length of the UTF-8 character at `i`; 0 where there is none.
-size_t character(const std::string& bytes, size_t i) {
-  const uint32_t first = byte_at(bytes, i);
-  const size_t size = first < 0x80                    ? 1
-                      : first >= 0xC2 && first < 0xE0 ? 2
-                      : first >= 0xE0 && first < 0xF0 ? 3
-                      : first >= 0xF0 && first < 0xF5 ? 4
-                                                      : 0;
-  if (size == 0 || i + size > bytes.size()) return 0;
-  for (size_t k = 1; k < size; ++k)
-    if ((byte_at(bytes, i + k) & 0xC0) != 0x80) return 0;
-  return size;
-}
-
-bool is_utf8(const std::string& bytes) {
-  for (size_t i = 0; i < bytes.size();)
-    if (const size_t size = character(bytes, i)) i += size;
-    else return false;
-  return true;
 }
 
 }  // namespace
@@ -66,10 +38,7 @@ std::string utf8_of(const std::string& bytes) {
   if (mark == "\xFF\xFE" || (mark.size() == 2 && mark[0] != '\0' && mark[1] == '\0'))
     return from_utf16(bytes, false);
   if (bytes.starts_with("\xEF\xBB\xBF")) return bytes.substr(3);
-  if (is_utf8(bytes)) return bytes;
-  std::string text;
-  for (size_t i = 0; i < bytes.size(); ++i) append(text, byte_at(bytes, i));
-  return text;
+  return is_utf8(bytes) ? bytes : utf8_of_latin1(bytes);
 }
 
 }  // namespace genio

@@ -123,7 +123,7 @@ bool known_by_line(const FileStart& start) { return start.line.find('\t') != std
 }  // namespace
 
 ContourFormat aaa_format() {
-  return {.traits = {.name = "aaa", .noise = ultrasound_noise, .splines = true},
+  return {.traits = {.name = "aaa", .noise = ultrasound_noise},
           .about = "AAA exports, Cartesian and polar, with or without header",
           .known_by_bytes = {},
           .known_by_line = known_by_line,
