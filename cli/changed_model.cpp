@@ -3,17 +3,29 @@
 #include <fmt/format.h>
 
 #include "cli/support.hpp"
+#include "forward/base/nearest_name.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/effect_kinds.hpp"
 #include "forward/model/model_file.hpp"
 
 namespace genio::cli {
 
+namespace {
+
+std::string nearest_effect(const ModelDescription& description, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& [effect, table] : description.effects) names.push_back(effect);
+  return nearest_name(name, names);
+}
+
+}  // namespace
+
 Model changed_model(const std::string& model, const ModelChanges& changes) {
   auto description = read_description(model);
   for (const auto& name : changes.without)
     if (description.effects.erase(name) == 0)
-      throw InputError(fmt::format("--without {}: the model has no such effect", name));
+      throw InputError(fmt::format("--without {}: the model has no such effect; did you mean {}?",
+                                   name, nearest_effect(description, name)));
   bool kappa_given = false;
   for (const auto& text : changes.effects) {
     const auto [name, value] = parse_assignment("--effect", text);

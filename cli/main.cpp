@@ -1,19 +1,24 @@
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 
+#include "cli/command_line.hpp"
 #include "cli/subcommands/bench.hpp"
 #include "cli/subcommands/discover.hpp"
+#include "cli/subcommands/formats.hpp"
 #include "cli/subcommands/forward.hpp"
 #include "cli/subcommands/import.hpp"
 #include "cli/subcommands/info.hpp"
 #include "cli/subcommands/invert.hpp"
+#include "cli/subcommands/merge.hpp"
 #include "cli/subcommands/request.hpp"
 #include "cli/subcommands/serve.hpp"
 #include "forward/base/types.hpp"
 
 int main(int argc, char** argv) {
   using namespace genio::cli;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error that is told
   try {
     return run_command_line(
         argc, argv,
@@ -21,6 +26,8 @@ int main(int argc, char** argv) {
          {"import", "Make a model folder from foreign files", add_import},
          {"forward", "Shape from muscle forces", add_forward},
          {"invert", "Muscle forces from measured shapes in a file", add_invert},
+         {"formats", "Files of measured shapes that are read", add_formats},
+         {"merge", "Runs over several ranges of frames as one", add_merge},
          {"discover", "What a model misses, from measured shapes under several conditions",
           add_discover},
          {"serve", "Answer shape requests over LCM", add_serve},

@@ -20,16 +20,20 @@ std::string usual_noises() {
 
 void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--target", o.target, "Contour file");
-  options.add("--format", o.read.format, format_choices());
+  std::vector<std::string> formats = {"auto"};
+  for (const ContourFormat& format : contour_formats()) formats.push_back(format.traits.name);
+  options.add("--format", o.read.format, format_choices(), {.suggested = formats});
   options.add("--columns", o.columns,
               "Columns of any long table: x=TITLE,y=TITLE,frame=TITLE,time=...,recording=...",
               {.separator = ','});
   options.add("--spline", o.read.spline, "The spline, or the body parts, to take of several");
   options.add("--points", o.read.points, "A-B: the landmarks of a .pts file that are the tongue's");
-  options.add("--units", o.read.units, "mm, cm, m, um or px, where the file does not say");
+  options.add("--units", o.read.units, "mm, cm, m, um or px, where the file does not say",
+              {.suggested = {"mm", "cm", "m", "um", "px"}});
   options.add("--mm-per-px", o.read.mm_per_px, "Size of a pixel", {.positive = true});
-  options.add("--facing", o.read.facing, "Where the face looks in the file: left or right");
-  options.add("--y-grows", o.read.up, "up, or down as in images");
+  options.add("--facing", o.read.facing, "Where the face looks in the file: left or right",
+              {.suggested = {"left", "right"}});
+  options.add("--y-grows", o.read.up, "up, or down as in images", {.suggested = {"up", "down"}});
   options.add("--axes", o.read.axes,
               "EMA: the axis that runs back along the head and the one that runs up, as in -x+z");
   options.add("--sensors", o.sensors, "EMA: what each is stuck to, 3=dorsum,5=tip",
@@ -37,12 +41,20 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say",
               {.positive = true});
   options.add("--palate", o.palate, "Palate trace of the same session");
-  options.add("--palate-spline", o.palate_spline, "The spline to take there, of several");
-  options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there");
+  options.add("--palate-spline", o.palate_spline, "The spline to take there, of several",
+              {.only_with = {"--palate"}});
+  options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there",
+              {.only_with = {"--palate"}});
   options.flag("--force-registration", o.force,
                "Answer although the registration fails its test; every result says so");
-  options.flag("--registered", o.registered, "The file is in the model's frame already");
-  options.add("--frames", o.frames, "A-B, counted from 1");
+  options.flag("--registered", o.registered, "The file is in the model's frame already",
+               {.not_with = {"--palate"}});
+  options.add("--frames", o.choice.frames, "A-B, counted from 1, or times as in 1.2s-1.8s");
+  options.add("--textgrid", o.choice.textgrid,
+              "Praat TextGrid: one frame a labelled interval or point, with its label");
+  options.add("--tier", o.choice.tier, "The tier of it", {.only_with = {"--textgrid"}});
+  options.add("--labels", o.choice.labels, "Frames with these labels alone: a,i,u",
+              {.separator = ','});
   options.add("--noise-mm", o.noise_mm,
               fmt::format("Measurement noise (by the format: {})", usual_noises()));
 }

@@ -15,8 +15,8 @@ namespace {
 CommandsOverTime commands_of(const Model& m, const SimulationOptions& o, const Parameters& rest) {
   if (!(o.ramp >= 0) || !(o.adapt_mm >= 0))
     throw InputError("--ramp and --adapt-mm: expected numbers of at least 0");
-  if (!o.commands.empty() && (!o.forces.empty() || o.ramp > 0))
-    throw InputError("--commands: not together with --force or --ramp");
+  if (o.ramp > 0 && o.forces.empty())
+    throw InputError("--ramp: does nothing without --force, which it lets rise");
   return o.commands.empty() ? ramp(rest, commanded(m, o.forces), o.ramp)
                             : read_commands(m, o.commands, rest);
 }
@@ -46,24 +46,27 @@ void print_motion(const MotionResult& r, int iterations, int factorizations) {
 }  // namespace
 
 void add_motion_options(Options& options, SimulationOptions& o) {
-  options.add("--duration", o.duration, "Length of the motion [s]", {.shows_default = true});
-  options.add("--step", o.step, "Time step [s], the longest where steps adapt",
-              {.shows_default = true});
-  options.add("--commands", o.commands, "CSV: time_s,GGP_N,... linear between rows");
+  const Rules moving{.shows_default = true, .only_with = {"--dynamic"}};
+  options.add("--duration", o.duration, "Length of the motion [s]", moving);
+  options.add("--step", o.step, "Time step [s], the longest where steps adapt", moving);
+  options.add("--commands", o.commands, "CSV: time_s,GGP_N,... linear between rows",
+              {.only_with = {"--dynamic"}, .not_with = {"--force", "--ramp"}});
   options.add("--ramp", o.ramp, "Time over which --force rises from nothing [s]; 0: a step",
-              {.shows_default = true});
+              moving);
   options.add("--scheme", o.scheme, "Time integration",
-              {.shows_default = true, .among = {"newmark", "generalised-alpha"}});
+              {.shows_default = true,
+               .among = {"newmark", "generalised-alpha"},
+               .only_with = {"--dynamic"}});
   options.add("--spectral-radius", o.spectral_radius,
-              "generalised-alpha: what is left of the fastest waves after a step, 0 to 1",
-              {.shows_default = true});
-  options.add("--adapt-mm", o.adapt_mm, "Largest error of a step [mm]; 0: fixed steps",
-              {.shows_default = true});
+              "generalised-alpha: what is left of the fastest waves after a step, 0 to 1", moving);
+  options.add("--adapt-mm", o.adapt_mm, "Largest error of a step [mm]; 0: fixed steps", moving);
 }
 
 int run_motion(const Model& m, const SimulationOptions& o, const std::string& out, bool json) {
   const Parameters rest = default_parameters(m);
   const CommandsOverTime commands = commands_of(m, o, rest);
+  if (o.scheme == "newmark" && o.spectral_radius_given)
+    throw InputError("--spectral-radius: does not apply; --scheme newmark has none");
   TimeOptions options;
   options.duration = o.duration, options.step = o.step, options.accuracy = 1e-3 * o.adapt_mm;
   options.scheme = o.scheme == "newmark" ? TimeScheme::newmark()

@@ -12,6 +12,7 @@ namespace genio::cli {
 struct SimulationOptions {
   std::vector<std::string> forces;  ///< "NAME=NEWTONS"
   std::string commands, scheme = "generalised-alpha";
+  bool spectral_radius_given = false;
   double duration = 0.12, step = 0.002, ramp = 0, spectral_radius = 0.5, adapt_mm = 0;
 };
 

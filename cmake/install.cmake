@@ -1,6 +1,11 @@
 # `cmake --install`: program, libraries, headers, data, and a package for find_package(genio).
 include(CMakePackageConfigHelpers)
 install(TARGETS genio RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# Made where all is built.
+include(GNUInstallDirs)
+install(FILES ${PROJECT_BINARY_DIR}/cli/genio.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+install(FILES ${PROJECT_BINARY_DIR}/cli/genio.bash RENAME genio
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
 # Not built by ./run; `genio bench` says what to do where it is missing.
 install(TARGETS genio-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
 install(TARGETS genio_messages EXPORT genioTargets)

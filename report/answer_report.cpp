@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "forward/base/text_file.hpp"
@@ -40,6 +41,21 @@ std::string to_table(const AnswerView& v) {
     out += fmt::format("outliers {} values beyond three standard deviations\n", v.outliers);
   out += fmt::format("status   {}\nverdict  {}{}{}\n", v.status, v.verdict,
                      v.message.empty() ? "" : ": ", v.message);
+  return out;
+}
+
+std::string to_line(const AnswerView& v) {
+  constexpr size_t shown = 3;
+  std::string out = v.title + ": ";
+  if (v.status != "converged")
+    return out + fmt::format("{}{}{}", v.status, v.message.empty() ? "" : ": ", v.message);
+  out += fmt::format("{}, RMS {:.2f} mm", v.verdict, v.rms_mm);
+  std::vector<Estimate> largest = v.muscles;
+  std::stable_sort(largest.begin(), largest.end(), [](const Estimate& a, const Estimate& b) {
+    return a.best / a.maximum > b.best / b.maximum;
+  });
+  for (size_t i = 0; i < std::min(shown, largest.size()); ++i)
+    out += fmt::format("{}{} {:.2f} N", i == 0 ? "; " : ", ", largest[i].name, largest[i].best);
   return out;
 }
 
@@ -125,7 +141,7 @@ std::string draw(const Model& model, const AnswerView& v) {
 
 void write_report(const Model& model, const AnswerView& v, int frame, const std::string& folder,
                   const std::string& name) {
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   const std::string base = (std::filesystem::path(folder) / name).string();
   const std::string picture = draw(model, v);
   write_text(base + ".svg", picture);

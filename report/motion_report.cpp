@@ -1,10 +1,11 @@
 #include "report/motion_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <filesystem>
 
+#include "forward/base/printed_text.hpp"
+#include "forward/base/text_file.hpp"
 #include "forward/geometry/vtk_io.hpp"
 
 namespace genio {
@@ -28,10 +29,9 @@ void write_shape(const Model& model, const Positions& x, const std::string& path
 void write_motion(const Model& model, const Trajectory& trajectory, const std::string& folder) {
   namespace fs = std::filesystem;
   const fs::path frames = fs::path(folder) / "frames";
-  fs::create_directories(frames);
-  auto series = fmt::output_file((fs::path(folder) / "motion.pvd").string());
+  make_folder(frames.string());
+  PrintedText series, table;
   series.print("<VTKFile type=\"Collection\" version=\"0.1\"><Collection>\n");
-  auto table = fmt::output_file((fs::path(folder) / "landmarks.csv").string());
   const std::pair<const char*, int> landmarks[] = {{"tip", model.landmarks.tip},
                                                    {"dorsum", model.landmarks.dorsum},
                                                    {"root", model.landmarks.root}};
@@ -52,6 +52,8 @@ void write_motion(const Model& model, const Trajectory& trajectory, const std::s
                 now.work_done);
   }
   series.print("</Collection></VTKFile>\n");
+  write_text((fs::path(folder) / "landmarks.csv").string(), table.text);
+  write_text((fs::path(folder) / "motion.pvd").string(), series.text);
 }
 
 }  // namespace genio

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "forward/base/text_file.hpp"
@@ -25,6 +26,19 @@ double quantile(std::vector<double> v, double p) {
   if (v.empty()) return 0;
   std::sort(v.begin(), v.end());
   return v[std::min(v.size() - 1, size_t(p * double(v.size())))];
+}
+
+/// In quotes where a comma, a quote or the end of a line stands in it.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// Empty where it is not known.
+std::string csv_number(double number, int digits) {
+  return std::isnan(number) ? "" : fmt::format("{:.{}g}", number, digits);
 }
 
 /// 0 where it is not there.
@@ -54,13 +68,20 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
       for (const auto& [name, force] : a.forces_N) muscles.push_back(name);
       break;
     }
-  std::string csv = "frame,status,verdict,rms_mm,max_mm,chi2_per_dof";
+  std::string csv =
+      "frame,time_s,label,recording,speaker,status,verdict,registration_scale,"
+      "registration_tilt_deg,registration_palate_rms_mm,registration_doubtful,rms_mm,max_mm,"
+      "chi2_per_dof";
   for (const auto& m : muscles) csv += fmt::format(",{}_N,{}_sd_N", m, m);
   csv += "\n";
   std::vector<Series> series;
   for (const auto& m : muscles) series.push_back({m, {}});
   for (const auto& [frame, a] : answers) {
-    csv += fmt::format("{},{},{}", frame, a.status, a.verdict);
+    csv += fmt::format("{},{},{},{},{},{},{}", frame, csv_number(a.time_s, 6), csv_field(a.label),
+                       csv_field(a.recording), csv_field(a.speaker), a.status, a.verdict);
+    const AnswerRecord::Laid& laid = a.registration;
+    csv += fmt::format(",{},{},{},{}", csv_number(laid.scale, 4), csv_number(laid.tilt_deg, 4),
+                       csv_number(laid.palate_rms_mm, 4), laid.doubtful ? "yes" : "no");
     if (!a.converged()) {
       csv += std::string(3 + 2 * muscles.size(), ',') + "\n";
       continue;

@@ -5,7 +5,10 @@
 #include <librsvg/rsvg.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
+
+#include "forward/base/text_file.hpp"
 
 namespace genio {
 namespace {
@@ -97,14 +100,18 @@ void write_png(const std::string& path, const std::string& svg, double scale) {
   cairo_t* cairo = cairo_create(surface);
   const RsvgRectangle area{0, 0, width * scale, height * scale};
   const bool drawn = rsvg_handle_render_document(handle, cairo, &area, &error);
-  const cairo_status_t written = cairo_surface_write_to_png(surface, path.c_str());
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> whole(
+      surface, cairo_surface_destroy);
   cairo_destroy(cairo);
-  cairo_surface_destroy(surface);
   g_object_unref(handle);
   g_clear_error(&error);
   if (!drawn) throw std::runtime_error(path + ": the drawing cannot be rendered");
-  if (written != CAIRO_STATUS_SUCCESS)
-    throw InputError(path + ": cannot be written: " + cairo_status_to_string(written));
+  cairo_status_t written = CAIRO_STATUS_SUCCESS;
+  replace_file(path, [&](const std::string& file) {
+    written = cairo_surface_write_to_png(surface, file.c_str());
+    if (written != CAIRO_STATUS_SUCCESS)
+      throw InputError(path + ": cannot be written: " + cairo_status_to_string(written));
+  });
 }
 
 }  // namespace genio

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -40,7 +39,7 @@ double value(const Json& row, const char* key) { return row.at(key).get<double>(
 }  // namespace
 
 void write_verification(const Json& tables, const std::string& folder) {
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   write_text(folder + "/verification.json", tables.dump(2) + "\n");
   const auto n = [](const Json& r) { return value(r, "n"); };
   write_text(folder + "/manufactured.svg",

@@ -27,6 +27,8 @@ class Client {
   std::optional<server_status_t> status(double timeout_s);
 
   const std::string& name() const { return name_; }
+  /// False while nobody listens at the URL.
+  bool connected() const { return link_.connected(); }
 
  private:
   Link link_;

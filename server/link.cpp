@@ -2,22 +2,101 @@
 
 #include <fmt/format.h>
 #include <lcm/lcm.h>
+#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <optional>
 #include <regex>
 #include <thread>
 
 #include "forward/base/types.hpp"
+#include "server/silenced.hpp"
 
 namespace genio {
 
+namespace {
+
+struct TcpAddress {
+  std::string host, port;
+};
+
+/// Of "tcpq://HOST:PORT", both of which may be left out; nothing for what is no such URL.
+std::optional<TcpAddress> tcp_address(const std::string& url) {
+  static const std::regex pattern(R"(tcpq://([^:/?\s]*)(?::(\d{1,5}))?/?(?:\?.*)?)");
+  std::smatch m;
+  if (!std::regex_match(url, m, pattern)) return std::nullopt;
+  const int port = m[2].matched ? std::stoi(m[2]) : 7700;
+  if (port < 1 || port > 65535) return std::nullopt;
+  return TcpAddress{m[1].length() > 0 ? m[1].str() : "127.0.0.1", std::to_string(port)};
+}
+
+bool answers(const addrinfo& address) {
+  constexpr int longest_ms = 1000;
+  const int fd = socket(address.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (fd < 0) return false;
+  bool good = ::connect(fd, address.ai_addr, address.ai_addrlen) == 0;
+  if (!good && errno == EINPROGRESS) {
+    pollfd polled{fd, POLLOUT, 0};
+    int error = 0;
+    socklen_t size = sizeof error;
+    good = poll(&polled, 1, longest_ms) == 1 &&
+           getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
+  }
+  close(fd);
+  return good;
+}
+
+/// True where somebody listens there.
+bool answers(const TcpAddress& address) {
+  addrinfo wanted{}, *found = nullptr;
+  wanted.ai_family = AF_INET;  // as LCM
+  wanted.ai_socktype = SOCK_STREAM;
+  if (getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &found) != 0) return false;
+  bool good = false;
+  for (const addrinfo* a = found; a && !good; a = a->ai_next) good = answers(*a);
+  freeaddrinfo(found);
+  return good;
+}
+
+/// True where the other side is gone, of which LCM prints a line.
+bool is_closed(int fd) {
+  char byte = 0;
+  return recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+}
+
+[[noreturn]] void refuse_url(const std::string& url) {
+  throw InputError(fmt::format(
+      "--lcm {}: cannot be used; expected for example {} or udpm://239.255.76.67:7667?ttl=0 "
+      "(which needs a multicast route)",
+      url, default_url));
+}
+
+}  // namespace
+
 struct Link::Subscription {
+  std::string channel;
   Handler handler;
+
+  void subscribe(lcm_t* lcm) {
+    lcm_subscribe(
+        lcm, channel.c_str(),
+        [](const lcm_recv_buf_t* buffer, const char* name, void* user) {
+          // No exception may pass through LCM's C frames.
+          try {
+            static_cast<Subscription*>(user)->handler(name, buffer->data, buffer->data_size);
+          } catch (...) {
+          }
+        },
+        this);
+  }
 };
 
 std::string choose_url(const std::string& option) {
@@ -34,16 +113,43 @@ uint16_t local_tcpq_port(const std::string& url) {
   return port > 0 && port < 65536 ? uint16_t(port) : 0;
 }
 
-Link::Link(const std::string& url) : lcm_(lcm_create(url.c_str())), tcp_(url.starts_with("tcpq")) {
-  if (!lcm_)
-    throw InputError(fmt::format(
-        "--lcm {}: cannot be used; expected for example {} or udpm://239.255.76.67:7667?ttl=0 "
-        "(which needs a multicast route)",
-        url, default_url));
+Link::Link(const std::string& url) : url_(url), tcp_(url.starts_with("tcpq")) {
+  if (tcp_ && !tcp_address(url)) refuse_url(url);
+  if (tcp_) connect();
+  else create();
+}
+
+bool Link::connected() const { return lcm_ && (!tcp_ || lcm_get_fileno(lcm_) >= 0); }
+
+void Link::create() {
+  {
+    const Silenced lcm;
+    lcm_ = lcm_create(url_.c_str());
+  }
+  if (!lcm_) refuse_url(url_);
+  for (Subscription& s : subscriptions_) s.subscribe(lcm_);
   tune();
 }
 
-Link::~Link() { lcm_destroy(lcm_); }
+bool Link::connect() {
+  if (connected()) return true;
+  // LCM may wait for minutes where nobody answers.
+  if (!answers(tcp_address(url_).value())) return false;
+  if (!lcm_) {
+    create();
+  } else {
+    // LCM reconnects, and subscribes again, when something is published.
+    const Silenced lcm;
+    const uint8_t nothing = 0;
+    lcm_publish(lcm_, "GENIO_RECONNECT", &nothing, 1);
+  }
+  if (connected()) tune();
+  return connected();
+}
+
+Link::~Link() {
+  if (lcm_) lcm_destroy(lcm_);
+}
 
 void Link::tune() {
   // LCM leaves Nagle's algorithm and delayed acknowledgements on: 88 ms a round trip.
@@ -56,42 +162,31 @@ void Link::tune() {
 }
 
 void Link::subscribe(const std::string& channel, Handler handler) {
-  subscriptions_.push_back({std::move(handler)});
-  lcm_subscribe(
-      lcm_, channel.c_str(),
-      [](const lcm_recv_buf_t* buffer, const char* name, void* user) {
-        // No exception may pass through LCM's C frames.
-        try {
-          static_cast<Subscription*>(user)->handler(name, buffer->data, buffer->data_size);
-        } catch (...) {
-        }
-      },
-      &subscriptions_.back());
+  subscriptions_.push_back({channel, std::move(handler)});
+  if (lcm_) subscriptions_.back().subscribe(lcm_);
 }
 
 bool Link::publish(const std::string& channel, const std::vector<uint8_t>& bytes) {
+  if (!connect()) return false;
+  std::optional<Silenced> lcm;
+  if (tcp_ && is_closed(lcm_get_fileno(lcm_))) lcm.emplace();
   const bool sent = lcm_publish(lcm_, channel.c_str(), bytes.data(), unsigned(bytes.size())) == 0;
   tune();
   return sent;
 }
 
 bool Link::wait(int timeout_ms, int other_fd) {
-  int fd = lcm_get_fileno(lcm_);
-  if (fd < 0) {
-    // LCM reconnects, and subscribes again, when something is published; its own waiting
-    // functions would abort the process or block for ever here.
-    const uint8_t nothing = 0;
-    lcm_publish(lcm_, "GENIO_RECONNECT", &nothing, 1);
-    fd = lcm_get_fileno(lcm_);
-    if (fd < 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(std::min(timeout_ms, 100)));
-      return false;
-    }
-    tune();
+  // LCM's own waiting functions would abort the process or block for ever without a connection.
+  if (!connect()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(std::min(timeout_ms, 100)));
+    return false;
   }
+  const int fd = lcm_get_fileno(lcm_);
   pollfd polled[2] = {{fd, POLLIN, 0}, {other_fd, POLLIN, 0}};
   if (poll(polled, other_fd >= 0 ? 2 : 1, timeout_ms) <= 0) return true;
   if (!(polled[0].revents & (POLLIN | POLLHUP | POLLERR))) return true;
+  std::optional<Silenced> lcm;
+  if (tcp_ && is_closed(fd)) lcm.emplace();
   const bool good = lcm_handle(lcm_) == 0;
   tune();
   return good;

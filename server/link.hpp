@@ -22,7 +22,7 @@ class Link {
  public:
   using Handler = std::function<void(const std::string& channel, const void* data, size_t size)>;
 
-  /// Throws InputError when the URL cannot be used.
+  /// Throws InputError when the URL cannot be used. It need not be answered yet.
   explicit Link(const std::string& url);
   ~Link();
   Link(const Link&) = delete;
@@ -34,12 +34,16 @@ class Link {
   /// Waits up to `timeout_ms` for a message, or for `other_fd` (if >= 0) to become readable, and
   /// handles what is there. False when the connection is down; a later call tries to reconnect.
   bool wait(int timeout_ms, int other_fd = -1);
+  bool connected() const;
 
  private:
   struct Subscription;
   void tune();
+  void create();
+  bool connect();
 
-  _lcm_t* lcm_;
+  std::string url_;
+  _lcm_t* lcm_ = nullptr;
   bool tcp_;
   int tuned_fd_ = -1;
   std::list<Subscription> subscriptions_;

@@ -41,7 +41,7 @@ for kind in svg png csv json vtu; do
   [ -s results/frame00001.$kind ] || { echo "FAILED: no results/frame00001.$kind"; failed=1; }
 done
 expect 2 'holds results already' "$genio" invert --target "$example" --out results
-expect 2 'needs the --out' "$genio" invert --target "$example" --resume
+expect 2 'does nothing without --out' "$genio" invert --target "$example" --resume
 # Four frames in two processes; an interruption in mid-line; what was known is not computed again.
 awk -F, -v OFS=, 'NR==1 {print; next} {for (f = 1; f <= 4; ++f) {$1 = f; l[f] = l[f] $0 "\n"}}
   END {for (f = 1; f <= 4; ++f) printf "%s", l[f]}' "$example" >four.csv
@@ -59,7 +59,7 @@ rm smooth/results.jsonl; echo >smooth/results.jsonl
 expect 0 'all frames together' "$genio" invert --target four.csv --smooth --threads 2 --out smooth --resume
 echo '{"unknowns":[["x"]]}' >smooth/checkpoint.json; echo >smooth/results.jsonl
 expect 2 'is damaged' "$genio" invert --target four.csv --smooth --threads 2 --out smooth --resume
-expect 2 'one of them' "$genio" invert --target four.csv --smooth --sequence
+expect 2 'not together' "$genio" invert --target four.csv --smooth --sequence
 awk -F, -v OFS=, 'NR==1 {print $0, "time_s"; next} {print $0, 0.02}' "$example" >timed.csv
 expect 0 '"verdict":' "$genio" invert --target timed.csv --dynamic --from-rest --start-s 0 --knot-s 0.02 --step-s 0.004 --json --out movement
 [ -s movement/commands.csv ] && [ -s movement/motion/motion.pvd ] || { echo "FAILED: movement/"; failed=1; }
@@ -87,7 +87,54 @@ expect 2 'expected A-B' "$genio" invert --target "$example" --frames 3-x
 expect 2 'no such frame' "$genio" invert --target "$example" --frames 7
 { printf 'sp\t1\td\tword\ta\t0\t0\t0\t0\t0\t0'; for k in $(seq 42); do printf '\t%d\t3' "$k"; done; echo; } >fan.tsv
 expect 0 'registered by the contours alone' "$genio" invert --target fan.tsv
+# Which frames, by time and by what was said; time and words reach every output.
+printf 'frame,x_mm,z_mm,time_s\n' >words.csv
+for f in 1 2 3 4 5; do awk -F, -v f=$f 'NR>1 {printf "%d,%s,%s,%s\n", f, $3, $4, 0.1*f}' "$example" >>words.csv; done
+printf 'File type = "ooTextFile"\nObject class = "TextGrid"\n0 1 <exists> 1\n"IntervalTier" "words" 0 1 3\n0 0.15 "" 0.15 0.25 "ata" 0.35 0.45 "a,k"\n' >words.TextGrid
+expect 0 '"label":"ata"' "$genio" invert --target words.csv --textgrid words.TextGrid --tier words --json --out words
+grep -q '^2,0.2,ata,,,converged' words/summary.csv && grep -q '^4,0.4,"a,k",,,converged' words/summary.csv || { echo "FAILED: words/summary.csv"; failed=1; }
+grep -q '"label": "ata"' words/frame00002.json && grep -q 'at 0.200 s: ata' words/frame00002.svg || { echo "FAILED: words/frame00002"; failed=1; }
+expect 2 'did you mean words?' "$genio" invert --target words.csv --textgrid words.TextGrid --tier word
+expect 2 'gives none' "$genio" invert --target four.csv --textgrid words.TextGrid
+expect 2 'its times are 0.100 to 0.500 s' "$genio" invert --target words.csv --frames 1.2s-1.8s
+# Another range goes on where the first ended, and runs of two ranges are one.
+expect 0 'frame 2 at 0.200 s: explained' "$genio" invert --target words.csv --frames 0.2s --quiet --out first
+[ -s err ] && { echo "FAILED: --quiet is not quiet"; cat err; failed=1; }
+expect 0 'frame 4' "$genio" invert --target words.csv --frames 4 --resume --out first
+expect 0 '"frame":3' "$genio" invert --target words.csv --frames 3 --json --out second
+expect 0 '"frames":3' "$genio" merge first second --out both --json
+[ "$(cut -d, -f1 both/summary.csv | paste -sd,)" = frame,2,3,4 ] && [ -s both/frame00003.png ] || { echo "FAILED: both/"; failed=1; }
+expect 2 'was made with noise_mm = 0.5, not 1' "$genio" invert --target words.csv --noise-mm 1 --resume --out both
+sed -i 's/0\.5$/0.6/' words.csv
+expect 2 'whose content is not that of' "$genio" invert --target words.csv --resume --out both
+# An option that does not apply says so.
+expect 2 'does nothing without --dynamic' "$genio" invert --target words.csv --knot-s 0.1
+expect 2 'does nothing without --textgrid' "$genio" invert --target words.csv --tier words
+expect 2 'not together with --palate' "$genio" invert --target fan.tsv --palate fan.tsv --registered
+expect 2 '--sensors: does not apply' "$genio" invert --target words.csv --sensors 3=tip
+expect 2 '--units: does not apply' "$genio" invert --target words.csv --units mm
+expect 2 '--noise-mm: does not apply' "$genio" invert --target "$example" --noise-mm 1
+expect 2 'does nothing without --dynamic' "$genio" forward --duration 1
+expect 2 "'request status' does not take it" "$genio" request status --target words.csv
+expect 2 'did you mean invert' "$genio" invrt --target words.csv
+expect 2 'did you mean --target' "$genio" invert --targt words.csv
+expect 2 'did you mean palate_contact' "$genio" forward --without palate_contakt
+expect 0 'Examples:' "$genio"
+expect 0 '"name":"aaa"' "$genio" formats --json
+expect 0 'complete -o filenames -F _genio genio' "$genio" completion bash
+expect 0 '.SS genio invert' "$genio" man
+"$genio" completion bash >completion && source completion
+COMP_WORDS=(genio invert --tex) COMP_CWORD=2 COMPREPLY=() && _genio
+[ "${COMPREPLY[*]}" = --textgrid ] || { echo "FAILED: completion says ${COMPREPLY[*]}"; failed=1; }
+# A disk that is full, a folder that is a file: one line, and nothing half written.
+mkdir full && ln -s /dev/full full/frame00001.svg
+expect 2 'No space left on device' "$genio" invert --target "$example" --out full
+[ -s full/results.jsonl ] && { echo "FAILED: full/results.jsonl"; failed=1; }
+ls full | grep -q '\.new$' && { echo "FAILED: left over in full/"; failed=1; }
+expect 2 'cannot be made' "$genio" invert --target "$example" --out words.csv/below
+(ulimit -f 4; expect 2 'File too large' "$genio" invert --target "$example" --out large; exit $failed) || failed=1
 expect 1 'genio serve' "$genio" request --lcm tcpq://127.0.0.1:7799 --target "$example" --timeout-s 1
+[ "$(grep -c . err)" -le 2 ] || { echo "FAILED: a library prints"; cat err; failed=1; }
 # Benchmarks are a program beside this one.
 expect 0 'Benchmarks:' "$genio" bench --help
 expect 2 'not in' "$genio" bench nothing

@@ -10,3 +10,6 @@ cmake -G Ninja -S "$source/tests/install" -B "$work/user" -DCMAKE_PREFIX_PATH="$
 cmake --build "$work/user" >>"$work/log" 2>&1 || { tail -30 "$work/log"; exit 1; }
 "$work/user/user" "$work/genio/share/genio/generic/model.toml"
 "$work/genio/bin/genio" info --json | grep -q nodes
+# The pages are made where all is built, as it is where this test runs.
+grep -q 'genio invert' "$work/genio/share/man/man1/genio.1"
+bash -n "$work/genio/share/bash-completion/completions/genio"

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "cli/support.hpp"
@@ -16,8 +15,6 @@
 
 namespace genio::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct DiscoverCommand {
   std::string model = default_model(), observations, out;
@@ -52,7 +49,7 @@ int run(const DiscoverCommand& o) {
   const Discovery d = discover(description, observations, options);
   std::string model;
   if (!o.out.empty()) {
-    fs::create_directories(o.out);
+    make_folder(o.out);
     if (!d.effects.empty()) {
       model = o.out + "/model";
       write_description(d.model, model);

@@ -14,6 +14,7 @@
 #include "cli/run_bench.hpp"
 #include "cli/support.hpp"
 #include "forward/base/elapsed.hpp"
+#include "forward/base/text_file.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "report/motion_report.hpp"
@@ -65,7 +66,7 @@ int run_statics(const Model& m, const ForwardOptions& o) {
   else if (e) print_statics(result);
   else fmt::print(stderr, "genio forward: {}\n", e.message);
   if (e && !o.out.empty()) {
-    std::filesystem::create_directories(o.out);
+    make_folder(o.out);
     write_shape(m, e.x, (std::filesystem::path(o.out) / "shape.vtu").string());
   }
   return e ? done : no_answer;
@@ -75,7 +76,6 @@ int run(const ForwardOptions& o) {
   if (!o.suite.empty()) return run_suite(o);
   const Model m = changed_model(o.model, o.changes);
   if (!o.dynamic) return run_statics(m, o);
-  if (o.small) throw InputError("--dynamic: not together with --small-deformation");
   return run_motion(m, o.motion, o.out, o.json);
 }
 
@@ -87,9 +87,12 @@ Runner add_forward(Options& options) {
   options.add("--force", o->motion.forces, "NAME=NEWTONS, whole muscle for a bilateral name");
   options.add("--effect", o->changes.effects, "NAME.param=VALUE, SI units");
   options.add("--without", o->changes.without, "Leave an effect of the model out");
-  options.flag("--small-deformation", o->small, "Linear framework of the rest shape");
-  options.add("--suite", o->suite, "seed: the published results, on this tongue",
-              {.among = {"seed"}});
+  options.flag("--small-deformation", o->small, "Linear framework of the rest shape",
+               {.not_with = {"--dynamic"}});
+  options.add(
+      "--suite", o->suite, "seed: the published results, on this tongue",
+      {.among = {"seed"},
+       .not_with = {"--force", "--effect", "--without", "--small-deformation", "--dynamic"}});
   options.flag("--dynamic", o->dynamic, "Motion from rest instead of equilibrium");
   add_motion_options(options, o->motion);
   options.flag("--json", o->json, "One JSON object on standard output");
@@ -97,7 +100,10 @@ Runner add_forward(Options& options) {
   options.footer(
       "Examples: genio forward --force GGP=4 --force TRANS=0.2 --out shape\n"
       "          genio forward --dynamic --force GGP=4 --duration 0.12 --step 0.002 --out motion");
-  return [o] { return run(*o); };
+  return [o, options] {
+    o->motion.spectral_radius_given = options.given("--spectral-radius");
+    return run(*o);
+  };
 }
 
 }  // namespace genio::cli

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "cli/measured_options.hpp"
@@ -24,7 +23,8 @@
 namespace genio::cli {
 namespace {
 
-constexpr double outlier_dof = 4;  // of Student's t
+constexpr double outlier_dof = 4;   // of Student's t
+constexpr size_t most_tables = 10;  // of frames, one a frame; then one line
 
 struct InvertOptions {
   MeasuredOptions measured;
@@ -32,16 +32,14 @@ struct InvertOptions {
   double deadline_s = 0;
   int starts = 0, threads = 1;
   bool bilateral = false, robust = false, resume = false, json = false, full_space = false;
+  bool quiet = false, verbose = false;
   bool sequence = false, smooth = false, dynamic = false;
   MovementOptions movement;
 };
 
 void check(const InvertOptions& o) {
-  if (o.smooth + o.dynamic + o.sequence > 1)
-    throw InputError("--sequence, --smooth and --dynamic: one of them");
   if (!(o.movement.knot_s > 0) || !(o.movement.step_s > 0))
     throw InputError("--knot-s and --step-s: must be above 0");
-  if (o.resume && o.out.empty()) throw InputError("--resume: needs the --out of the earlier run");
 }
 
 std::vector<Frame> frames_of(const Model& model, const Measured& measured, const InvertOptions& o) {
@@ -64,22 +62,41 @@ Prior checked_prior(const Model& model, const InvertOptions& o) {
   return prior;
 }
 
+/// Which frames were asked for matters where all are one problem; else each is one of its own, and
+/// another range goes on where this one ends.
+QuestionValue range_of(const InvertOptions& o) {
+  if (!o.smooth && !o.dynamic) return {};
+  return fmt::format("{} {}", o.measured.choice.frames, fmt::join(o.measured.choice.labels, ","));
+}
+
 /// Everything an answer depends on.
 Question question(const InvertOptions& o, double noise) {
-  return {{"model", o.model},
-          {"target", o.measured.target},
-          {"palate", o.measured.palate},
+  const MeasuredOptions& m = o.measured;
+  return {{"genio", GENIO_VERSION},
+          {"model", asked_file(o.model)},
+          {"target", asked_file(m.target)},
+          {"palate", asked_file(m.palate)},
+          {"palate_sensor", m.palate_sensor},
+          {"textgrid", asked_file(m.choice.textgrid)},
+          {"tier", m.choice.tier},
+          {"frames", range_of(o)},
           {"noise_mm", 1e3 * noise},
-          {"units", o.measured.read.units},
-          {"mm_per_px", o.measured.read.mm_per_px},
-          {"facing", o.measured.read.facing},
-          {"sensors", o.measured.sensors},
-          {"columns", o.measured.columns},
-          {"spline", o.measured.read.spline},
-          {"points", o.measured.read.points},
-          {"palate_spline", o.measured.palate_spline},
-          {"registered", o.measured.registered},
-          {"prior", o.prior},
+          {"format", m.read.format},
+          {"units", m.read.units},
+          {"mm_per_px", m.read.mm_per_px},
+          {"facing", m.read.facing},
+          {"y_grows", m.read.up},
+          {"axes", m.read.axes},
+          {"forced", m.force},
+          {"sensors", m.sensors},
+          {"columns", m.columns},
+          {"spline", m.read.spline},
+          {"points", m.read.points},
+          {"palate_spline", m.palate_spline},
+          {"rate_hz", m.read.rate_hz},
+          {"registered", m.registered},
+          {"prior", asked_file(o.prior)},
+          {"deadline_s", o.deadline_s},
           {"starts", o.starts},
           {"bilateral", o.bilateral},
           {"robust", o.robust},
@@ -103,22 +120,23 @@ FrameOptions frame_options(const Model& model, const InvertOptions& o) {
   return options;
 }
 
-/// Writes the answer's files. Gives its line of JSON, and below what people read.
+/// Writes the answer's files. Gives its line of JSON, one for people, and below its table.
 std::string message(const Model& model, const ContourFrame& frame, const AnswerView& view,
                     const Positions& shape, const std::string& out) {
   if (!out.empty()) {
-    const std::string name = frame_name(frame);
+    const std::string name = frame_name(frame.number);
     write_report(model, view, frame.number, out, name);
     if (shape.size() > 0) write_shape(model, shape, out + "/" + name + ".vtu");
   }
-  return answer_json(view, frame.number) + "\n" + view.title + "\n" + to_table(view);
+  return answer_json(view, frame.number) + "\n" + to_line(view) + "\n" + view.title + "\n" +
+         to_table(view);
 }
 
 /// The commands as `genio forward --dynamic --commands` takes them, and the motion.
 void write_movement(const Model& model, const MotionAnswer& a, const std::string& out) {
   if (out.empty() || a.status != InferStatus::converged) return;
   write_text(out + "/commands.csv", commands_csv(a));
-  std::filesystem::create_directories(out + "/motion");
+  make_folder(out + "/motion");
   write_motion(model, a.trajectory, out + "/motion");
 }
 
@@ -141,42 +159,64 @@ void answer(const Model& model, const std::vector<Frame>& frames, const FrameOpt
     const std::string text = to_message(frame, view, shape);
     if (!known.contains(frame.number)) collect(text);
   };
-  if (o.smooth)
-    return answer_smooth(model, frames, options, o.threads, checkpoint, print_progress, take);
+  const auto progress = [&](double part, const std::string& what) {
+    if (!o.quiet) print_progress(part, what);
+  };
+  if (o.smooth) return answer_smooth(model, frames, options, o.threads, checkpoint, progress, take);
   const MotionAnswer a =
-      answer_movement(model, frames, options, o.movement, checkpoint, print_progress, take);
+      answer_movement(model, frames, options, o.movement, checkpoint, progress, take);
   write_movement(model, a, o.out);
+}
+
+/// Prints the message() of a frame: as JSON, in one line on long runs, or as a table.
+void print_answer(const std::string& message, const AnswerRecord& record, bool one_line,
+                  const InvertOptions& o) {
+  const size_t line = message.find('\n') + 1, table = message.find('\n', line) + 1;
+  if (o.json) fmt::print("{}\n", record.line);
+  if (!o.json && one_line) fmt::print("{}", message.substr(line, table - line));
+  if (!o.json && !one_line) fmt::print("{}\n", message.substr(table));
+  if (o.json && o.verbose) fmt::print(stderr, "{}\n", message.substr(table));
+  std::fflush(stdout);
+}
+
+/// Those of `known` that are asked for again.
+int asked_again(const AnswerRecords& known, const std::vector<Frame>& frames) {
+  return int(std::count_if(frames.begin(), frames.end(),
+                           [&](const Frame& f) { return known.contains(f.contour.number); }));
 }
 
 int run_checked(const InvertOptions& o) {
   check(o);
+  const auto remark = [&](const std::string& line) {
+    if (!o.quiet) print_line(line);
+  };
   const Model model = read_model(o.model);
   const Measured measured = read_measured(
-      o.measured, [&]() -> const Model& { return model; }, print_line);
+      o.measured, [&]() -> const Model& { return model; }, remark);
   const std::vector<Frame> frames = frames_of(model, measured, o);
   FrameOptions options = frame_options(model, o);
   if (!options.prior.head_pose) options.prior.head_pose = measured.head_pose;
   std::optional<ResultLog> log;
   if (!o.out.empty()) log.emplace(o.out, question(o, measured.noise), o.resume);
   const AnswerRecords known = log ? log->known() : AnswerRecords();
+  const int done_before = asked_again(known, frames);
   if (!known.empty())
-    fmt::print(stderr, "{} of {} frames are known from the run before\n", known.size(),
-               frames.size());
+    remark(
+        fmt::format("{} of {} frames are known from the run before", done_before, frames.size()));
   AnswerRecords answers = known;
-  ProgressLine progress(int(known.size()), int(frames.size()));
+  const bool one_line = o.quiet || (frames.size() > most_tables && !o.verbose);
+  ProgressLine progress(done_before, int(frames.size()));
   answer(model, frames, options, known, measured.registration, o, [&](const std::string& text) {
-    const size_t end = text.find('\n');
-    const AnswerRecord record = read_record(text.substr(0, end)).value();
+    const AnswerRecord record = read_record(text.substr(0, text.find('\n'))).value();
     if (log) log->add(record);
-    fmt::print("{}\n", o.json ? record.line : text.substr(end + 1));
-    std::fflush(stdout);
+    print_answer(text, record, one_line, o);
     answers[record.frame] = record;
-    progress.step();
+    if (!o.quiet) progress.step();
   });
-  if (frames.size() > 1) fmt::print(stderr, "{}", summary_text(answers));
+  if (answers.size() > 1) remark(summary_text(answers));
   if (log) write_summary(answers, o.out);
-  return std::all_of(answers.begin(), answers.end(),
-                     [](const auto& a) { return a.second.converged(); })
+  return std::all_of(frames.begin(), frames.end(),
+                     [&](const Frame& f) { return answers.at(f.contour.number).converged(); })
              ? done
              : no_answer;
 }
@@ -201,27 +241,38 @@ Runner add_invert(Options& options) {
   options.add("--starts", o->starts,
               "Descents a frame; more find other answers that fit (0: until the shape is "
               "explained)",
-              {.range = {{0, 1000}}});
-  options.flag("--sequence", o->sequence, "Activations walk from frame to frame");
-  options.flag("--smooth", o->smooth, "The same, all frames as one smoothing problem");
+              {.range = {{0, 1000}}, .not_with = {"--dynamic"}});
+  options.flag("--sequence", o->sequence, "Activations walk from frame to frame",
+               {.not_with = {"--smooth", "--dynamic"}});
+  options.flag("--smooth", o->smooth, "The same, all frames as one smoothing problem",
+               {.not_with = {"--sequence", "--dynamic"}});
   options.flag("--dynamic", o->dynamic, "All frames as one movement, with inertia and viscosity");
   options.add("--knot-s", o->movement.knot_s, "--dynamic: between bends of the commands [s]",
-              {.shows_default = true});
-  options.add("--step-s", o->movement.step_s, "--dynamic: time step [s]", {.shows_default = true});
+              {.shows_default = true, .only_with = {"--dynamic"}});
+  options.add("--step-s", o->movement.step_s, "--dynamic: time step [s]",
+              {.shows_default = true, .only_with = {"--dynamic"}});
   options.add("--start-s", o->movement.start_s,
-              "--dynamic: when the movement starts [s] (0.1 s before the first frame)");
+              "--dynamic: when the movement starts [s] (0.1 s before the first frame)",
+              {.only_with = {"--dynamic"}});
   options.flag("--from-rest", o->movement.from_rest,
-               "--dynamic: starts without commands; else from a posture that is found along");
+               "--dynamic: starts without commands; else from a posture that is found along",
+               {.only_with = {"--dynamic"}});
   options.flag("--full-space", o->full_space,
-               "Positions and commands together as unknowns: slower, to check the default by");
+               "Positions and commands together as unknowns: slower, to check the default by",
+               {.not_with = {"--smooth", "--dynamic"}});
   options.flag("--robust", o->robust, "Noise with outliers (Student's t)");
   options.flag("--bilateral", o->bilateral, "Left and right together");
-  options.add("--deadline-s", o->deadline_s, "Time a frame may take");
+  options.add("--deadline-s", o->deadline_s, "Time a frame may take", {.positive = true});
   options.add("--threads", o->threads, "Worker processes, each with a run of neighbouring frames",
-              {.range = {{1, 256}}});
+              {.range = {{1, 256}}, .not_with = {"--dynamic"}});
   options.flag("--json", o->json, "One JSON object a frame on standard output");
+  options.flag("--quiet", o->quiet, "One line a frame, no remarks, no progress");
+  options.flag("--verbose", o->verbose,
+               "The table of every frame; else one line each where there are more than 10",
+               {.not_with = {"--quiet"}});
   options.add("--out", o->out, "Folder for results.jsonl, a summary, pictures and shapes");
-  options.flag("--resume", o->resume, "Take up an interrupted run with the same --out");
+  options.flag("--resume", o->resume, "Take up an interrupted run, or go on with other frames",
+               {.only_with = {"--out"}});
   options.footer("Example: genio invert --target data/examples/example_shape.csv --out results");
   return [o] { return run(*o); };
 }

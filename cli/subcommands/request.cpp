@@ -44,7 +44,7 @@ shape_request_t request_of(const ContourFrame& frame, double noise, const Reques
 
 AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
   AnswerView v;
-  v.title = frame_title(frame);
+  tell_frame(frame, v);
   v.status = r.status, v.message = r.message, v.verdict = r.verdict;
   for (size_t i = 0; i < r.muscle.size(); ++i)
     v.muscles.push_back({.name = r.muscle[i],
@@ -85,14 +85,19 @@ int run_request(const RequestOptions& o) {
   };
   const Measured measured = read_measured(o.measured, model, print_line);
   Client client(choose_url(o.url));
+  if (!client.connected())
+    print_line(fmt::format("nobody listens on {} yet; waiting for up to {} s", choose_url(o.url),
+                           o.timeout_s));
   bool all = true;
   for (const auto& frame : measured.frames) {
+    bool told = false;
     const auto reply =
         client.request(request_of(frame, measured.noise, o), o.timeout_s, [&](const progress_t& p) {
-          if (!o.json)
-            fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
+          if (o.json) return;
+          fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
+          told = true;
         });
-    if (!o.json) fmt::print(stderr, "\n");
+    if (told) fmt::print(stderr, "\n");
     if (!reply)
       throw std::runtime_error(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
                                            choose_url(o.url), o.timeout_s));
@@ -101,7 +106,7 @@ int run_request(const RequestOptions& o) {
     if (o.json) fmt::print("{}\n", answer_json(view, frame.number));
     else fmt::print("{}\n{}\n", view.title, to_table(view));
     std::fflush(stdout);
-    if (!o.out.empty()) write_report(model(), view, frame.number, o.out, frame_name(frame));
+    if (!o.out.empty()) write_report(model(), view, frame.number, o.out, frame_name(frame.number));
   }
   return all ? done : no_answer;
 }
@@ -122,21 +127,25 @@ Runner add_request(Options& options) {
   auto o = std::make_shared<RequestOptions>();
   options.add("--lcm", o->url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
   add_measured_options(options, o->measured);
-  options.add("--timeout-s", o->timeout_s, "How long to wait for each reply");
-  options.add("--deadline-s", o->deadline_s, "Time the server may compute");
+  options.add("--timeout-s", o->timeout_s, "How long to wait for each reply", {.positive = true});
+  options.add("--deadline-s", o->deadline_s, "Time the server may compute", {.positive = true});
   options.add("--starts", o->starts, "Descents, to find other answers that fit",
               {.range = {{0, 1000}}});
   options.add("--model", o->model, "Model to register with and to show in the picture");
   options.flag("--json", o->json, "One JSON object a frame on standard output");
   options.add("--out", o->out, "Folder for pictures and numbers");
-  const Options status = options.subcommand("status", "What the server is doing");
-  Options cancel = options.subcommand("cancel", "Withdraw a request");
+  const Options status =
+      options.subcommand("status", "What the server is doing", {"--lcm", "--timeout-s", "--json"});
+  Options cancel = options.subcommand("cancel", "Withdraw a request", {"--lcm"});
   cancel.add("id", o->cancel_id, "Id of the request", {.required = true});
   options.footer("Example: genio request --target data/examples/example_shape.csv");
   return [o, status, cancel]() -> int {
     if (status.chosen()) return run_status(*o);
     if (cancel.chosen()) {
-      Client(choose_url(o->url)).cancel(o->cancel_id);
+      Client client(choose_url(o->url));
+      if (!client.connected())
+        throw std::runtime_error(fmt::format("nobody listens on {}", choose_url(o->url)));
+      client.cancel(o->cancel_id);
       return done;
     }
     return run_request(*o);

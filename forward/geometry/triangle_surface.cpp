@@ -3,13 +3,15 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <map>
 #include <queue>
+
+#include "forward/base/printed_text.hpp"
+#include "forward/base/text_file.hpp"
 
 namespace genio {
 namespace {
@@ -90,10 +92,11 @@ TriangleSurface read_surface(const std::string& path) {
 }
 
 void write_obj(const std::string& path, const TriangleSurface& surface) {
-  auto out = fmt::output_file(path);
+  PrintedText out;
   out.print("# metres; x backwards, y to the speaker's right, z up\n");
   for (const Vec3& v : surface.vertices) out.print("v {:.6f} {:.6f} {:.6f}\n", v[0], v[1], v[2]);
   for (const auto& t : surface.triangles) out.print("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  write_text(path, out.text);
 }
 
 std::vector<std::vector<Eigen::Vector2d>> midsagittal_cut(const TriangleSurface& s) {

@@ -1,13 +1,15 @@
 #include "forward/geometry/vtk_io.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <pugixml.hpp>
 #include <sstream>
+
+#include "forward/base/printed_text.hpp"
+#include "forward/base/text_file.hpp"
 
 namespace genio {
 namespace {
@@ -110,7 +112,7 @@ void read_cells(const std::string& path, const pugi::xml_node& node, bool wide, 
   }
 }
 
-void print_array(fmt::ostream& out, const std::string& name, const VtkArray& a) {
+void print_array(PrintedText& out, const std::string& name, const VtkArray& a) {
   out.print("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n",
             a.integer ? "Int64" : "Float64", name, a.components);
   for (size_t i = 0; i < a.values.size(); ++i) {
@@ -127,7 +129,7 @@ VtkArray points_array(const VtkData& data) {
   return a;
 }
 
-void print_cells(fmt::ostream& out, const VtkData& data, bool with_types) {
+void print_cells(PrintedText& out, const VtkData& data, bool with_types) {
   VtkArray connectivity{1, {}, true}, offsets{1, {}, true}, types{1, {}, true};
   for (size_t c = 0; c < data.cells.size(); ++c) {
     for (int i : data.cells[c]) connectivity.values.push_back(i);
@@ -139,7 +141,7 @@ void print_cells(fmt::ostream& out, const VtkData& data, bool with_types) {
   if (with_types) print_array(out, "types", types);
 }
 
-void print_data(fmt::ostream& out, const VtkData& data) {
+void print_data(PrintedText& out, const VtkData& data) {
   out.print("<PointData>\n");
   for (const auto& [name, array] : data.point_data) print_array(out, name, array);
   out.print("</PointData>\n<CellData>\n");
@@ -188,7 +190,7 @@ VtkData read_vtk(const std::string& path) {
 }
 
 void write_vtu(const std::string& path, const VtkData& data) {
-  auto out = fmt::output_file(path);
+  PrintedText out;
   out.print(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
@@ -200,10 +202,11 @@ void write_vtu(const std::string& path, const VtkData& data) {
   out.print("</Cells>\n");
   print_data(out, data);
   out.print("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  write_text(path, out.text);
 }
 
 void write_vtp_lines(const std::string& path, const VtkData& data) {
-  auto out = fmt::output_file(path);
+  PrintedText out;
   out.print(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
       "byte_order=\"LittleEndian\">\n<PolyData>\n<Piece NumberOfPoints=\"{}\" "
@@ -216,6 +219,7 @@ void write_vtp_lines(const std::string& path, const VtkData& data) {
   out.print("</Lines>\n");
   print_data(out, data);
   out.print("</Piece>\n</PolyData>\n</VTKFile>\n");
+  write_text(path, out.text);
 }
 
 }  // namespace genio

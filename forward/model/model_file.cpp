@@ -1,7 +1,6 @@
 #include "forward/model/model_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,8 @@
 #include <set>
 
 #include "forward/base/nearest_name.hpp"
+#include "forward/base/printed_text.hpp"
+#include "forward/base/text_file.hpp"
 #include "forward/base/toml_reader.hpp"
 #include "forward/geometry/vtk_io.hpp"
 #include "forward/model/build_effects.hpp"
@@ -168,7 +169,7 @@ ModelDescription read_description(const std::string& given) {
 
 void write_description(const ModelDescription& d, const std::string& folder_name) {
   const fs::path folder = folder_name;
-  fs::create_directories(folder);
+  make_folder(folder.string());
   VtkData mesh;
   mesh.points = d.mesh.nodes;
   VtkArray support{1, {}, true}, mask{1, {}, true};
@@ -201,7 +202,7 @@ void write_description(const ModelDescription& d, const std::string& folder_name
   fibres.cell_data["muscle"] = muscle;
   write_vtp_lines((folder / "fibres.vtp").string(), fibres);
 
-  auto out = fmt::output_file((folder / "model.toml").string());
+  PrintedText out;
   out.print(
       "# Genio tongue model. Lengths in metres; x backwards, y to the speaker's right, z up.\n"
       "[model]\nname = \"{}\"\nprovenance = \"{}\"\nmesh = \"mesh.vtu\"      # node array "
@@ -228,6 +229,7 @@ void write_description(const ModelDescription& d, const std::string& folder_name
     out.print("[effect.{}]\n", effect);
     for (const auto& [key, value] : table) out.print("{} = {}\n", key, value);
   }
+  write_text((folder / "model.toml").string(), out.text);
 }
 
 }  // namespace genio

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "inverse/recording/base/unicode_text.hpp"
 #include "inverse/recording/frame_target.hpp"
 
 namespace genio {
@@ -23,20 +26,32 @@ std::vector<Frame> open_frames(const std::vector<Frame>& frames, const AnswerRec
   return open;
 }
 
-std::string frame_name(const ContourFrame& frame) {
-  return fmt::format("frame{:05d}", frame.number);
+std::string frame_title(const ContourFrame& frame) {
+  std::string from = frame.recording;
+  if (!frame.speaker.empty())
+    from += fmt::format("{}speaker {}", from.empty() ? "" : ", ", frame.speaker);
+  return fmt::format("frame {}{}{}{}{}", frame.number,
+                     std::isnan(frame.time_s) ? "" : fmt::format(" at {:.3f} s", frame.time_s),
+                     frame.label.empty() ? "" : ": ", frame.label,
+                     from.empty() ? "" : fmt::format(" ({})", from));
 }
 
-std::string frame_title(const ContourFrame& frame) {
-  return fmt::format("frame {}{}{}", frame.number, frame.label.empty() ? "" : ": ", frame.label);
+void tell_frame(const ContourFrame& frame, AnswerView& view) {
+  view.title = utf8_of(frame_title(frame)), view.time_s = frame.time_s;
+  view.label = utf8_of(frame.label), view.recording = utf8_of(frame.recording);
+  view.speaker = utf8_of(frame.speaker);
 }
 
 AnswerView view_of(const Model& model, const Frame& frame, const Answer& answer) {
   const ContourFrame& contour = frame.contour;
-  if (!frame.target.empty()) return view_of(model, frame.target, answer, frame_title(contour));
   AnswerView view;
-  view.title = frame_title(contour), view.status = "failed", view.verdict = "none";
-  view.message = contour.note.empty() ? "the frame has no points" : contour.note;
+  if (!frame.target.empty()) {
+    view = view_of(model, frame.target, answer);
+  } else {
+    view.status = "failed", view.verdict = "none";
+    view.message = contour.note.empty() ? "the frame has no points" : contour.note;
+  }
+  tell_frame(contour, view);
   return view;
 }
 

@@ -25,10 +25,10 @@ std::vector<Frame> make_frames(const Model& model, const std::vector<ContourFram
 /// Those whose answers are not known yet, in the same order.
 std::vector<Frame> open_frames(const std::vector<Frame>& frames, const AnswerRecords& known);
 
-/// "frame00007", for its files.
-std::string frame_name(const ContourFrame& frame);
-/// "frame 7: word"
+/// "frame 7 at 1.234 s: word (take_3, speaker S2)", as far as it is known.
 std::string frame_title(const ContourFrame& frame);
+/// Puts title, time, label, recording and speaker of a frame into what is shown of its answer.
+void tell_frame(const ContourFrame& frame, AnswerView& view);
 
 /// What every way to answer frames takes.
 struct FrameOptions {

@@ -9,22 +9,10 @@
 #include "inverse/recording/base/curve_pieces.hpp"
 #include "inverse/recording/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
+#include "runs/frames/unused_options.hpp"
 
 namespace genio {
 namespace {
-
-/// "7" or "3-9"; empty means all.
-std::pair<int, int> parse_frames(const std::string& text) {
-  if (text.empty()) return {1, 1 << 30};
-  int a = 0, b = 0;
-  char rest = 0;
-  const int n = std::sscanf(text.c_str(), "%d-%d%c", &a, &b, &rest);
-  if (n == 1 && text.find('-') == std::string::npos) b = a;
-  else if (n != 2) a = 0;
-  if (a < 1 || b < a)
-    throw InputError(fmt::format("--frames {}: expected A-B with 1 <= A <= B", text));
-  return {a, b};
-}
 
 /// "5=tip" to what the reader takes; `expected` is what the option's values look like.
 std::map<std::string, std::string> parsed_pairs(const std::vector<std::string>& pairs,
@@ -135,12 +123,14 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
                        const std::function<void(const std::string&)>& remark) {
   if (o.target.empty()) throw InputError("--target: a contour file is needed");
   if (!(o.noise_mm >= 0)) throw InputError("--noise-mm: must be above 0");
-  const auto [first, last] = parse_frames(o.frames);
   ReadOptions read = o.read;
   read.sensors = parsed_pairs(o.sensors, "--sensors", "SENSOR=PLACE, as in 5=tip");
   read.columns = parsed_pairs(o.columns, "--columns", "ROLE=TITLE, as in frame=uniqueframe");
   SessionFile target = read_session_file(o.target, read);
   const FormatTraits format = target.file.format;
+  refuse_unused(o, format, target.file.model_frame);
+  refuse_unused_pixels(o, target.axes);
+  refuse_unused_noise(o, target.file.frames);
   Measured m;
   if (target.file.model_frame || o.registered) {
     ContourFile file = target.file.model_frame
@@ -154,10 +144,9 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   }
   heed(m, o, remark);
   m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : format.noise;
-  std::erase_if(m.frames,
-                [&](const ContourFrame& f) { return f.number < first || f.number > last; });
-  if (m.frames.empty())
-    throw InputError(fmt::format("--frames {}: {} has no such frame", o.frames, o.target));
+  m.frames = chosen_frames(std::move(m.frames), o.choice, o.target, [&](const std::string& line) {
+    remark(fmt::format("{}: {}", o.target, line));
+  });
   return m;
 }
 

@@ -10,6 +10,7 @@
 #include "forward/model/model.hpp"
 #include "inverse/prior/terms/head_pose_prior.hpp"
 #include "inverse/recording/contour_file.hpp"
+#include "runs/frames/frame_choice.hpp"
 #include "runs/frames/registration_record.hpp"
 
 namespace genio {
@@ -17,7 +18,7 @@ namespace genio {
 /// As the command line gives them; errors name its options.
 struct MeasuredOptions {
   std::string target, palate, palate_sensor, palate_spline;
-  std::string frames;                ///< "7" or "3-9"; empty: all
+  FrameChoice choice;
   std::vector<std::string> sensors;  ///< "5=tip"
   std::vector<std::string> columns;  ///< "frame=uniqueframe", of the target's table
   ReadOptions read;
@@ -27,8 +28,9 @@ struct MeasuredOptions {
 };
 
 struct Measured {
-  std::vector<ContourFrame> frames;  ///< those asked for, in the model's frame
-  double noise;                      ///< [m]
+  /// Those asked for, in the model's frame; times are NaN where the file gives none.
+  std::vector<ContourFrame> frames;
+  double noise;  ///< [m]
   RegistrationRecord registration;
   /// How well the head's place is known where no palate tells it.
   std::optional<HeadPosePrior> head_pose;

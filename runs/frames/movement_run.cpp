@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace genio {
 namespace {
@@ -63,6 +64,8 @@ MotionAnswer answer_movement(const Model& model, const std::vector<Frame>& frame
                              const FrameOptions& options, const MovementOptions& movement,
                              const Checkpoint& checkpoint, const TakeProgress& progress,
                              const TakeAnswer& take) {
+  if (std::isnan(first_time(frames)))
+    throw InputError("--dynamic: frames must rise in time, and the target gives no times");
   const double start = movement.start_s.value_or(first_time(frames) - lead);
   std::vector<MotionFrame> measured;
   for (const Frame& f : frames)

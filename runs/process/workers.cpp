@@ -1,6 +1,5 @@
 #include "runs/process/workers.hpp"
 
-#include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -12,6 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "forward/base/types.hpp"
+
 namespace genio {
 namespace {
 
@@ -21,8 +22,17 @@ struct Worker {
   std::string pending = {};  // the beginning of a result
 };
 
-/// A result goes through the pipe behind the number of its bytes.
+/// A result goes through the pipe behind the number of its bytes; so does, marked as such, the
+/// reason why a worker cannot go on.
 using Length = uint64_t;
+constexpr Length input_mark = Length(1) << 63, failure_mark = Length(1) << 62,
+                 marks = input_mark | failure_mark;
+
+/// Why the first worker that failed did so; `mark` 0: none has.
+struct Failure {
+  Length mark = 0;
+  std::string reason = {};
+};
 
 void write_all(int pipe, const std::string& text) {
   for (size_t done = 0; done < text.size();) {
@@ -30,6 +40,12 @@ void write_all(int pipe, const std::string& text) {
     if (n < 0) _exit(1);  // nobody collects any more
     done += size_t(n);
   }
+}
+
+void write_marked(int pipe, Length mark, const std::string& text) {
+  const Length length = text.size() | mark;
+  write_all(pipe, std::string(reinterpret_cast<const char*>(&length), sizeof length));
+  write_all(pipe, text);
 }
 
 Worker start(int k, const std::function<void(int, const Send&)>& work) {
@@ -44,20 +60,19 @@ Worker start(int k, const std::function<void(int, const Send&)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   close(ends[0]);
   try {
-    work(k, [&](const std::string& result) {
-      const Length length = result.size();
-      write_all(ends[1], std::string(reinterpret_cast<const char*>(&length), sizeof length));
-      write_all(ends[1], result);
-    });
+    work(k, [&](const std::string& result) { write_marked(ends[1], 0, result); });
+  } catch (const InputError& e) {
+    write_marked(ends[1], input_mark, e.what());
+    _exit(1);
   } catch (const std::exception& e) {
-    fmt::print(stderr, "worker {}: {}\n", k + 1, e.what());
+    write_marked(ends[1], failure_mark, e.what());
     _exit(1);
   }
   _exit(0);
 }
 
 /// False when the worker has ended.
-bool receive(Worker& worker, const Send& collect) {
+bool receive(Worker& worker, const Send& collect, Failure& failure) {
   char buffer[65536];
   const ssize_t n = read(worker.pipe, buffer, sizeof buffer);
   if (n <= 0) return false;
@@ -66,8 +81,12 @@ bool receive(Worker& worker, const Send& collect) {
   size_t first = 0;
   for (Length length; pending.size() - first >= sizeof length; first += sizeof length + length) {
     std::memcpy(&length, pending.data() + first, sizeof length);
+    const Length mark = length & marks;
+    length &= ~marks;
     if (pending.size() - first - sizeof length < length) break;
-    collect(pending.substr(first + sizeof length, length));
+    const std::string text = pending.substr(first + sizeof length, length);
+    if (mark == 0) collect(text);
+    else if (failure.mark == 0) failure = {mark, text};
   }
   pending.erase(0, first);
   return true;
@@ -80,13 +99,14 @@ void in_processes(int count, const std::function<void(int, const Send&)>& work,
   if (count <= 1) return work(0, collect);
   std::vector<Worker> workers;
   for (int k = 0; k < count; ++k) workers.push_back(start(k, work));
+  Failure failure;
   bool died = false;
   while (!workers.empty()) {
     std::vector<pollfd> waiting;
     for (const Worker& w : workers) waiting.push_back({w.pipe, POLLIN, 0});
     if (poll(waiting.data(), waiting.size(), -1) < 0) continue;  // a signal
     for (size_t i = waiting.size(); i-- > 0;) {
-      if (waiting[i].revents == 0 || receive(workers[i], collect)) continue;
+      if (waiting[i].revents == 0 || receive(workers[i], collect, failure)) continue;
       int status = 0;
       close(workers[i].pipe);
       waitpid(workers[i].process, &status, 0);
@@ -94,6 +114,8 @@ void in_processes(int count, const std::function<void(int, const Send&)>& work,
       workers.erase(workers.begin() + long(i));
     }
   }
+  if (failure.mark == input_mark) throw InputError(failure.reason);
+  if (failure.mark == failure_mark) throw std::runtime_error(failure.reason);
   if (died) throw std::runtime_error("a worker process ended early; --resume takes up the rest");
 }
 

@@ -1,7 +1,11 @@
 #include "runs/results/answer_record.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace genio {
 namespace {
@@ -9,6 +13,8 @@ namespace {
 nlohmann::json to_json(const AnswerView& v, int frame) {
   nlohmann::json j;
   j["frame"] = frame;
+  j["time_s"] = std::isfinite(v.time_s) ? nlohmann::json(v.time_s) : nlohmann::json();
+  j["label"] = v.label, j["recording"] = v.recording, j["speaker"] = v.speaker;
   j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
   for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation", "information_bits",
                           "bound_multipliers", "estimated"})
@@ -67,15 +73,41 @@ std::map<std::string, double> estimated_values(const nlohmann::json& answer) {
   return result;
 }
 
-std::string word(const nlohmann::json& answer, const char* key) {
+std::string word(const nlohmann::json& answer, const char* key, const char* otherwise) {
   const auto it = answer.find(key);
-  return it != answer.end() && it->is_string() ? it->get<std::string>() : "none";
+  return it != answer.end() && it->is_string() ? it->get<std::string>() : otherwise;
+}
+
+AnswerRecord::Laid registration_of(const nlohmann::json& answer) {
+  const auto it = answer.find("registration");
+  const nlohmann::json laid = it == answer.end() ? nlohmann::json::object() : *it;
+  const auto doubtful = laid.find("doubtful");
+  return {.scale = number(laid, "scale"),
+          .tilt_deg = number(laid, "tilt_deg"),
+          .palate_rms_mm = number(laid, "palate_rms_mm"),
+          .doubtful = doubtful != laid.end() && *doubtful == true};
 }
 
 }  // namespace
 
 std::string answer_json(const AnswerView& view, int frame, int indent) {
-  return to_json(view, frame).dump(indent);
+  // A label in an unknown encoding must not cost an answer.
+  return to_json(view, frame).dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string frame_name(int frame) { return fmt::format("frame{:05d}", frame); }
+
+bool agree(const AnswerRecord& a, const AnswerRecord& b) {
+  const auto of = [](const AnswerRecord& r) {
+    return std::tie(r.frame, r.status, r.verdict, r.label, r.recording, r.speaker);
+  };
+  if (of(a) != of(b) || a.forces_N.size() != b.forces_N.size()) return false;
+  return std::all_of(a.forces_N.begin(), a.forces_N.end(), [&](const auto& force) {
+    const auto other = b.forces_N.find(force.first);
+    const auto sd = a.sd_N.find(force.first);
+    const double near = std::max(1e-6, sd == a.sd_N.end() ? 0 : 0.1 * sd->second);
+    return other != b.forces_N.end() && !(std::abs(other->second - force.second) > near);
+  });
 }
 
 std::optional<AnswerRecord> read_record(const std::string& line) {
@@ -85,12 +117,16 @@ std::optional<AnswerRecord> read_record(const std::string& line) {
   AnswerRecord r;
   r.frame = answer["frame"].get<int>();
   r.line = line;
-  r.status = word(answer, "status"), r.verdict = word(answer, "verdict");
+  r.time_s = number(answer, "time_s");
+  r.label = word(answer, "label", ""), r.recording = word(answer, "recording", "");
+  r.speaker = word(answer, "speaker", "");
+  r.status = word(answer, "status", "none"), r.verdict = word(answer, "verdict", "none");
   r.rms_mm = number(answer, "rms_mm"), r.max_mm = number(answer, "max_mm");
   r.chi2_per_dof = number(answer, "chi2_per_dof"), r.wall_s = number(answer, "wall_s");
   r.forces_N = numbers(answer, "forces_N"), r.sd_N = numbers(answer, "sd_N");
   r.activation = numbers(answer, "activation");
   r.estimated = estimated_values(answer);
+  r.registration = registration_of(answer);
   return r;
 }
 

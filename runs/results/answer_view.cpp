@@ -4,10 +4,8 @@
 
 namespace genio {
 
-AnswerView view_of(const Model& model, const Target& target, const Answer& a,
-                   const std::string& title) {
+AnswerView view_of(const Model& model, const Target& target, const Answer& a) {
   AnswerView v;
-  v.title = title;
   v.status = to_string(a.status), v.message = a.message, v.verdict = to_string(a.verdict);
   v.muscles = a.muscles, v.others = a.others, v.trade_offs = a.unidentified;
   for (const TradeOff& trade : a.unidentified) v.unidentified.push_back(names(trade));

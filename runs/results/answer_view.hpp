@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@ namespace genio {
 /// What is shown and kept of an answer; filled from an Answer or from a reply over LCM.
 struct AnswerView {
   std::string title, status, message, verdict;
+  double time_s = std::numeric_limits<double>::quiet_NaN();  ///< of the frame; NaN: not known
+  std::string label, recording, speaker;                     ///< of the frame, where known
   std::vector<Estimate> muscles;
   std::vector<Estimate> others;  ///< parameters and head pose
   std::vector<std::vector<std::string>> unidentified;
@@ -22,7 +25,7 @@ struct AnswerView {
   std::vector<Vec2> measured, predicted;  ///< midsagittal, (x, z) [m]
 };
 
-AnswerView view_of(const Model& model, const Target& target, const Answer& answer,
-                   const std::string& title);
+/// All but what is said of the frame itself.
+AnswerView view_of(const Model& model, const Target& target, const Answer& answer);
 
 }  // namespace genio

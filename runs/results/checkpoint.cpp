@@ -29,7 +29,7 @@ void Checkpoint::keep(const std::vector<Vector>& unknowns) const {
   if (path_.empty()) return;
   auto json = nlohmann::json::array();
   for (const Vector& z : unknowns) json.push_back(std::vector<double>(z.begin(), z.end()));
-  replace_text(path_, nlohmann::json{{"unknowns", json}}.dump() + "\n");
+  write_text(path_, nlohmann::json{{"unknowns", json}}.dump() + "\n");
 }
 
 }  // namespace genio

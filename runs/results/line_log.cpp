@@ -1,5 +1,8 @@
 #include "runs/results/line_log.hpp"
 
+#include <cerrno>
+#include <cstring>
+
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
 
@@ -12,14 +15,17 @@ LineLog::LineLog(const std::string& path,
   if (std::ifstream in(path_); in)
     for (std::string line; std::getline(in, line);)
       if (take_up(line)) whole += line + "\n";
-  replace_text(path_, whole);  // a line without its end would swallow the next one
+  write_text(path_, whole);  // a line without its end would swallow the next one
   out_.open(path_, std::ios::app);
-  if (!out_) throw InputError(path_ + ": cannot be written");
+  if (!out_) throw InputError(path_ + ": cannot be written: " + std::strerror(errno));
 }
 
 void LineLog::add(const std::string& line) {
+  errno = 0;
   out_ << line << '\n' << std::flush;
-  if (!out_) throw InputError(path_ + ": cannot be written (disk full?)");
+  if (!out_)
+    throw InputError(
+        path_ + ": cannot be written: " + (errno ? std::strerror(errno) : "the disk may be full"));
 }
 
 }  // namespace genio

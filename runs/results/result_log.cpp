@@ -4,60 +4,52 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio {
-namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
-struct ToJson {
-  Json operator()(std::monostate) const { return nullptr; }
-  template <class T>
-  Json operator()(const T& value) const {
-    return value;
-  }
-};
-
-Json to_json(const Question& asked) {
-  Json result = Json::object();
-  for (const auto& [name, value] : asked) result[name] = std::visit(ToJson(), value);
-  return result;
-}
-
-/// Throws InputError naming the first option in which the run of `path` differs from what is asked.
-void check_same_question(const std::string& folder, const std::string& path, const Json& asked) {
-  const Json before = Json::parse(std::ifstream(path), nullptr, false);
-  if (!before.is_object())
+std::string asked_in(const std::string& folder) {
+  const std::string path = folder + "/run.json";
+  std::ifstream in(path);
+  if (!in) throw InputError(path + ": no such file; expected the folder of a run");
+  const std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!nlohmann::json::parse(text, nullptr, false).is_object())
     throw InputError(path + ": is damaged; name another --out, or remove the folder");
-  for (const auto& [key, value] : asked.items())
-    if (const Json earlier = before.value(key, Json()); earlier != value)
-      throw InputError(fmt::format("--resume: {} was made with {} = {}, not {}", folder, key,
-                                   earlier.dump(), value.dump()));
+  return text;
 }
 
-}  // namespace
+bool add_answer(AnswerRecords& answers, AnswerRecord answer, const std::string& folder) {
+  const auto [at, fresh] = answers.try_emplace(answer.frame, answer);
+  if (!fresh && !agree(at->second, answer))
+    throw InputError(fmt::format(
+        "{}: frame {} has two answers that differ; remove the wrong one from results.jsonl", folder,
+        answer.frame));
+  return fresh;
+}
+
+void make_result_folder(const std::string& folder, const std::string& otherwise) {
+  make_folder(folder);
+  if (fs::exists(folder + "/results.jsonl"))
+    throw InputError(fmt::format("--out {}: holds results already; {}", folder, otherwise));
+}
 
 ResultLog::ResultLog(const std::string& folder, const Question& question, bool resume) {
-  const std::string path = folder + "/results.jsonl", run = folder + "/run.json";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("--out {}: {}", folder, error.message()));
-  if (fs::exists(path) && !resume)
-    throw InputError(fmt::format(
-        "--out {}: holds results already; --resume takes them up, or name another folder", folder));
-  const Json asked = to_json(question);
-  if (resume && fs::exists(run)) check_same_question(folder, run, asked);
-  write_text(run, asked.dump(2) + "\n");
-  lines_.emplace(path, [&](const std::string& line) {
+  const std::string run = folder + "/run.json", asked = question_json(question);
+  if (!resume) make_result_folder(folder, "--resume takes them up, or name another folder");
+  make_folder(folder);
+  if (resume && fs::exists(run))
+    if (const std::string other = difference(asked_in(folder), asked); !other.empty())
+      throw InputError(fmt::format("--resume: {} was made with {}", folder, other));
+  write_text(run, asked + "\n");
+  lines_.emplace(folder + "/results.jsonl", [&](const std::string& line) {
     auto answer = read_record(line);
-    if (!answer) return false;
-    known_.insert_or_assign(answer->frame, std::move(*answer));
-    return true;
+    return answer && add_answer(known_, std::move(*answer), folder);
   });
 }
 

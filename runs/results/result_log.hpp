@@ -3,26 +3,20 @@
 
 #include <optional>
 #include <string>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include "runs/results/answer_record.hpp"
 #include "runs/results/line_log.hpp"
+#include "runs/results/question.hpp"
 
 namespace genio {
-
-/// What was asked: each option's name and value, in any order; std::monostate where it is unset.
-using QuestionValue =
-    std::variant<std::monostate, bool, int, double, std::string, std::vector<std::string>>;
-using Question = std::vector<std::pair<std::string, QuestionValue>>;
 
 /// DIR/results.jsonl with the answers so far, and DIR/run.json with what was asked. A run that was
 /// interrupted leaves both; `resume` takes its lines up and drops one that was cut off.
 class ResultLog {
  public:
   /// `asked`: everything that an answer depends on. Throws InputError where the folder holds the
-  /// answers to another question, or where answers would be overwritten without `resume`.
+  /// answers to another question or two answers to one frame, or where answers would be overwritten
+  /// without `resume`.
   ResultLog(const std::string& folder, const Question& asked, bool resume);
 
   /// The answers of the run that is taken up.
@@ -33,5 +27,15 @@ class ResultLog {
   AnswerRecords known_;
   std::optional<LineLog> lines_;  // once it is known whether it may be taken up
 };
+
+/// The question of a folder's run.json, as JSON. Throws InputError where it is damaged or missing.
+std::string asked_in(const std::string& folder);
+
+/// Adds an answer unless the same is there already: true where it was added. Throws InputError
+/// naming frame and `folder` where another answer to the frame is there.
+bool add_answer(AnswerRecords& answers, AnswerRecord answer, const std::string& folder);
+
+/// Refuses a folder that holds results, and makes it where there is none. Throws InputError.
+void make_result_folder(const std::string& folder, const std::string& otherwise);
 
 }  // namespace genio

@@ -19,24 +19,62 @@ std::string text_of(const std::string& path) {
   return all.str();
 }
 
-TEST(TextFile, ReplacingLeavesTheNewTextAlone) {
-  const std::string path =
+class TextFiles : public testing::Test {
+ protected:
+  TextFiles() { std::filesystem::create_directory(folder); }
+  ~TextFiles() override { std::filesystem::remove_all(folder); }
+  const std::string folder =
       (std::filesystem::temp_directory_path() / ("genio-text-" + std::to_string(getpid())))
           .string();
+  const std::string path = folder + "/file";
+};
+
+TEST_F(TextFiles, WritingLeavesTheNewTextAlone) {
   write_text(path, "old, and longer than the new\n");
-  replace_text(path, "new\n");
+  write_text(path, "new\n");
   EXPECT_EQ(text_of(path), "new\n");
   EXPECT_FALSE(std::filesystem::exists(path + ".new"));
-  std::filesystem::remove(path);
+}
+
+TEST_F(TextFiles, AnInterruptedWriteLeavesTheOldTextAndNothingBeside) {
+  write_text(path, "old\n");
+  EXPECT_THROW(replace_file(path,
+                            [](const std::string& file) {
+                              std::ofstream(file) << "half";
+                              throw InputError("interrupted");
+                            }),
+               InputError);
+  EXPECT_EQ(text_of(path), "old\n");
+  EXPECT_FALSE(std::filesystem::exists(path + ".new"));
+}
+
+TEST_F(TextFiles, AFullDiskIsAnErrorThatNamesFileAndReason) {
+  std::filesystem::create_symlink("/dev/full", path);
+  try {
+    write_text(path, "text");
+    FAIL() << "written where nothing fits";
+  } catch (const InputError& e) {
+    EXPECT_EQ(std::string(e.what()), path + ": cannot be written: No space left on device");
+  }
 }
 
 TEST(TextFile, OneThatCannotBeWrittenIsAnErrorThatNamesIt) {
-  for (const auto write : {write_text, replace_text}) try {
-      write("/no/such/folder/file", "text");
-      FAIL() << "written into no folder";
-    } catch (const InputError& e) {
-      EXPECT_NE(std::string(e.what()).find("/no/such/folder/file"), std::string::npos) << e.what();
-    }
+  try {
+    write_text("/no/such/folder/file", "text");
+    FAIL() << "written into no folder";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("/no/such/folder/file"), std::string::npos) << e.what();
+  }
+}
+
+TEST_F(TextFiles, AFolderThatCannotBeMadeIsAnErrorThatNamesIt) {
+  write_text(path, "a file");
+  try {
+    make_folder(path + "/below");
+    FAIL() << "made below a file";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find(path + "/below"), std::string::npos) << e.what();
+  }
 }
 
 TEST(Stopwatch, ItRunsForwards) {

@@ -81,6 +81,13 @@ TEST_F(AnswerReport, SaysEveryNumberInItsTable) {
     EXPECT_NE(table.find(number), std::string::npos) << number << " in\n" << table;
 }
 
+TEST_F(AnswerReport, SaysVerdictFitAndLargestForcesInOneLine) {
+  EXPECT_EQ(to_line(view), view.title + ": explained, RMS 0.38 mm; GGP 2.25 N, STY 0.62 N");
+  AnswerView none;
+  none.title = "frame 2", none.status = "failed", none.message = "no points";
+  EXPECT_EQ(to_line(none), "frame 2: failed: no points");
+}
+
 TEST_F(AnswerReport, DrawsABarForEachMuscleAndADotForEachMeasuredPoint) {
   pugi::xml_document document;
   test::parse(test::content(folder / "frame.svg"), document);

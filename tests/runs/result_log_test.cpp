@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -91,6 +92,30 @@ TEST_F(ResultLogs, AnotherQuestionIsRefusedByItsName) {
   }
 }
 
+TEST_F(ResultLogs, AnotherContentOfAFileIsAnotherQuestion) {
+  test::TemporaryFolder elsewhere;
+  const std::string target = elsewhere.path() + "/target.csv";
+  write_text(target, "1");
+  { ResultLog log(folder.path(), {{"target", asked_file(target)}}, false); }
+  EXPECT_NO_THROW(ResultLog(folder.path(), {{"target", asked_file(target)}}, true));
+  write_text(target, "2");
+  EXPECT_THROW(ResultLog(folder.path(), {{"target", asked_file(target)}}, true), InputError);
+}
+
+TEST_F(ResultLogs, AnAnswerThatIsThereTwiceIsKeptOnceAndTwoThatDifferAreRefused) {
+  {
+    ResultLog log(folder.path(), asked, false);
+    for (int frame : {1, 2, 1}) log.add(answer(frame));
+  }
+  const std::string path = folder.path() + "/results.jsonl";
+  { EXPECT_EQ(ResultLog(folder.path(), asked, true).known().size(), 2u); }
+  EXPECT_EQ(text("results.jsonl"), answer(1).line + "\n" + answer(2).line + "\n");
+  AnswerView other;
+  other.status = "failed", other.verdict = "none";
+  std::ofstream(path, std::ios::app) << answer_json(other, 2) << "\n";
+  EXPECT_THROW(ResultLog(folder.path(), asked, true), InputError);
+}
+
 TEST_F(ResultLogs, ADamagedQuestionIsAnErrorOfTheInput) {
   { ResultLog log(folder.path(), asked, false); }
   write_text(folder.path() + "/run.json", "[1");
@@ -114,6 +139,24 @@ TEST(AnswerRecords, ARecordHoldsTheNumbersOfItsAnswer) {
   EXPECT_EQ(r->sd_N.at("HG"), 0.25);
   EXPECT_EQ(r->activation.at("HG"), 1.0 / 3 / 7);
   EXPECT_EQ(r->estimated.at("gravity.z"), -9.81);
+}
+
+TEST(AnswerRecords, ARecordHoldsTimeAndWordsOfItsFrame) {
+  ContourFrame frame;
+  frame.number = 7, frame.time_s = 1.25, frame.label = "k\xE4se";  // Latin-1
+  frame.recording = "take 3", frame.speaker = "S2";
+  AnswerView view;
+  tell_frame(frame, view);
+  EXPECT_EQ(view.title, "frame 7 at 1.250 s: k\xC3\xA4se (take 3, speaker S2)");
+  const auto r = read_record(answer_json(view, 7));
+  ASSERT_TRUE(r);
+  EXPECT_EQ(r->time_s, 1.25);
+  EXPECT_EQ(r->label, "k\xC3\xA4se");
+  EXPECT_EQ(r->recording, "take 3");
+  EXPECT_EQ(r->speaker, "S2");
+  frame.time_s = std::nan("");
+  tell_frame(frame, view);
+  EXPECT_TRUE(std::isnan(read_record(answer_json(view, 7))->time_s));
 }
 
 TEST(AnswerRecords, WhatIsNoAnswerIsNone) {

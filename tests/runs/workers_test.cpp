@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "forward/base/types.hpp"
 #include "runs/frames/frame_by_frame.hpp"
 
 namespace genio {
@@ -62,6 +63,18 @@ TEST(Workers, OneThatDiesIsAnErrorAndTheOthersResultsStillCome) {
   };
   EXPECT_THROW(in_processes(3, work, [&](const std::string&) { ++came; }), std::runtime_error);
   EXPECT_EQ(came, 2);
+}
+
+TEST(Workers, WhatOneThrowsIsThrownHereWithItsWords) {
+  const auto work = [](int k, const Send&) {
+    if (k == 1) throw InputError("out/frame00002.svg: cannot be written");
+  };
+  try {
+    in_processes(3, work, [](const std::string&) {});
+    FAIL() << "an error was lost";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "out/frame00002.svg: cannot be written");
+  }
 }
 
 TEST(Workers, EachHasAProcessOfItsOwn) {

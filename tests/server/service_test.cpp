@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <thread>
 
 #include "forward/model/build_model.hpp"
@@ -118,6 +119,49 @@ TEST_F(Service, StoppingServerRepliesToAllThatWait) {
   thread.join();
   for (int i = 0; i < 50 && replies < 3; ++i) link.wait(100);
   EXPECT_EQ(replies, 3);
+}
+
+/// What `work` prints on standard error, the C library's included.
+std::string errors_of(const std::function<void()>& work) {
+  testing::internal::CaptureStderr();
+  work();
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(Link, NothingIsPrintedWhereNobodyListens) {
+  Hub reserved(0);
+  const std::string url = "tcpq://127.0.0.1:" + std::to_string(reserved.port());
+  std::string free;  // a port that was just given back
+  { free = "tcpq://127.0.0.1:" + std::to_string(Hub(0).port()); }
+  EXPECT_EQ(errors_of([&] {
+              Client client(free);
+              EXPECT_FALSE(client.connected());
+              EXPECT_FALSE(client.request({}, 0.5));
+              EXPECT_FALSE(client.status(0.2));
+            }),
+            "");
+  EXPECT_TRUE(Client(url).connected());
+}
+
+TEST(Link, AServerThatComesLaterIsFound) {
+  auto first = std::make_unique<Hub>(0);
+  const uint16_t port = first->port();
+  first.reset();
+  Link link("tcpq://127.0.0.1:" + std::to_string(port));
+  EXPECT_FALSE(link.connected());
+  int came = 0;
+  link.subscribe("LATE", [&](const std::string&, const void*, size_t) { ++came; });
+  const Hub hub(port);
+  for (int k = 0; k < 50 && came == 0; ++k) {
+    link.publish("LATE", {1, 2, 3});
+    link.wait(100);
+  }
+  EXPECT_GT(came, 0);
+}
+
+TEST(Link, AUrlThatIsNoneIsRefused) {
+  for (const char* url : {"tcpq://127.0.0.1:99999", "tcpq://host:port", "nothing://x"})
+    EXPECT_THROW(Link{url}, InputError) << url;
 }
 
 TEST(Hub, PortInUseIsAnError) {

@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cli/command_table.hpp"
+
+namespace genio::cli {
+
+/// genio(1), as man reads it.
+std::string man_page(const std::vector<CommandTable>& commands);
+
+}  // namespace genio::cli

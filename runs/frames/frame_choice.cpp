@@ -1,0 +1,144 @@
+#include "runs/frames/frame_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "forward/base/nearest_name.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "runs/frames/labelled_frames.hpp"
+
+namespace genio {
+namespace {
+
+using Frames = std::vector<ContourFrame>;
+
+[[noreturn]] void refuse_range(const std::string& text) {
+  throw InputError(
+      fmt::format("--frames {}: expected A-B with 1 <= A <= B, or times as in 1.2s-1.8s", text));
+}
+
+/// The first and last of "3-9" or "1.2s-1.8s", without the s; both the same where there is one.
+std::pair<std::string, std::string> ends_of(const std::string& text) {
+  const auto dash = text.find('-');
+  if (dash == std::string::npos) return {text, text};
+  return {text.substr(0, dash), text.substr(dash + 1)};
+}
+
+double whole(const std::string& end, const std::string& text) {
+  double value = 0;
+  if (!parse_number(end, value) || value < 1 || value > 1e9 || value != std::floor(value) ||
+      end.find_first_not_of("0123456789") != std::string::npos)
+    refuse_range(text);
+  return value;
+}
+
+double seconds(const std::string& end, const std::string& text) {
+  double value = 0;
+  if (end.size() < 2 || end.back() != 's' || !parse_number(end.substr(0, end.size() - 1), value) ||
+      value < 0)
+    refuse_range(text);
+  return value;
+}
+
+std::string span_of(const Frames& frames) {
+  const auto [first, last] =
+      std::minmax_element(frames.begin(), frames.end(),
+                          [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  return fmt::format("{:.3f} to {:.3f} s", first->time_s, last->time_s);
+}
+
+Frames by_number(Frames frames, const std::string& text, const std::string& path) {
+  const auto [a, b] = ends_of(text);
+  const double first = whole(a, text), last = whole(b, text);
+  if (last < first) refuse_range(text);
+  Frames kept;
+  for (ContourFrame& f : frames)
+    if (f.number >= first && f.number <= last) kept.push_back(std::move(f));
+  if (kept.empty()) {
+    const auto [low, high] =
+        std::minmax_element(frames.begin(), frames.end(),
+                            [](const auto& p, const auto& q) { return p.number < q.number; });
+    throw InputError(fmt::format("--frames {}: {} has no such frame; its frames are {} to {}", text,
+                                 path, low->number, high->number));
+  }
+  return kept;
+}
+
+Frames by_time(Frames frames, const std::string& text, const std::string& path) {
+  const auto [a, b] = ends_of(text);
+  const double first = seconds(a, text), last = seconds(b, text);
+  if (last < first) refuse_range(text);
+  if (std::isnan(frames.front().time_s))
+    throw InputError(
+        fmt::format("--frames {}: {} gives no times; choose frames by their numbers", text, path));
+  constexpr double exact = 1e-9;
+  const std::string span = span_of(frames);
+  Frames kept;
+  if (a == b) {
+    const double away = half_spacing(frames) + exact;
+    const auto nearest = std::min_element(frames.begin(), frames.end(), [&](auto& p, auto& q) {
+      return std::abs(p.time_s - first) < std::abs(q.time_s - first);
+    });
+    if (std::abs(nearest->time_s - first) <= away) kept.push_back(*nearest);
+  } else {
+    for (ContourFrame& f : frames)
+      if (f.time_s >= first - exact && f.time_s <= last + exact) kept.push_back(std::move(f));
+  }
+  if (kept.empty())
+    throw InputError(
+        fmt::format("--frames {}: {} has no frame then; its times are {}", text, path, span));
+  return kept;
+}
+
+Frames by_label(Frames frames, const std::vector<std::string>& labels, const std::string& from) {
+  std::set<std::string> all;
+  for (const ContourFrame& f : frames) all.insert(f.label);
+  all.erase("");
+  if (all.empty())
+    throw InputError(fmt::format("--labels {}: {} gives its frames no labels; give a --textgrid",
+                                 fmt::join(labels, ","), from));
+  for (const std::string& label : labels)
+    if (!all.contains(label))
+      throw InputError(fmt::format("--labels {}: {} has no such label; did you mean {}?", label,
+                                   from, nearest_name(label, {all.begin(), all.end()})));
+  Frames kept;
+  for (ContourFrame& f : frames)
+    if (std::find(labels.begin(), labels.end(), f.label) != labels.end())
+      kept.push_back(std::move(f));
+  return kept;
+}
+
+/// Formats without times leave them all at 0.
+void forget_missing_times(Frames& frames) {
+  if (std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.time_s == 0; }))
+    for (ContourFrame& f : frames) f.time_s = std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const FrameChoice& choice,
+                                        const std::string& path,
+                                        const std::function<void(const std::string&)>& remark) {
+  if (frames.empty()) throw InputError(path + ": has no frame");
+  forget_missing_times(frames);
+  if (!choice.tier.empty() && choice.textgrid.empty())
+    throw InputError(
+        fmt::format("--tier {}: is of a TextGrid; give it with --textgrid", choice.tier));
+  if (!choice.frames.empty())
+    frames = choice.frames.find('s') != std::string::npos
+                 ? by_time(std::move(frames), choice.frames, path)
+                 : by_number(std::move(frames), choice.frames, path);
+  if (!choice.textgrid.empty())
+    frames = labelled_frames(std::move(frames), choice.textgrid, choice.tier, path, remark);
+  if (!choice.labels.empty())
+    frames = by_label(std::move(frames), choice.labels,
+                      choice.textgrid.empty() ? path : choice.textgrid);
+  return frames;
+}
+
+}  // namespace genio

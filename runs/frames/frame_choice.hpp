@@ -1,0 +1,26 @@
+#pragma once
+// Which frames of a recording are asked for: by number, by time, by what was said.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "inverse/recording/base/contours.hpp"
+
+namespace genio {
+
+/// As the command line gives it; what is empty asks for all.
+struct FrameChoice {
+  std::string frames = {};  ///< "7", "3-9", "1.2s-1.8s" or "1.2s"
+  std::string textgrid = {}, tier = {};
+  std::vector<std::string> labels = {};
+};
+
+/// The frames that are asked for, of all that the file `path` has. Those that a TextGrid names have
+/// its labels; a frame's time is NaN where the file gives no times. `remark` hears which labels
+/// have no frame. Throws InputError naming option, what the file has, and what was expected.
+std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const FrameChoice& choice,
+                                        const std::string& path,
+                                        const std::function<void(const std::string&)>& remark);
+
+}  // namespace genio

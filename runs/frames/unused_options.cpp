@@ -1,0 +1,63 @@
+#include "runs/frames/unused_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace genio {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& why) {
+  throw InputError(fmt::format("{}: does not apply; {}", option, why));
+}
+
+void refuse_unless_sensors(const MeasuredOptions& o, const FormatTraits& format) {
+  if (format.content == Content::sensors) return;
+  const std::string why =
+      fmt::format("{} is read as {}, which holds no sensors", o.target, format.name);
+  if (!o.sensors.empty()) refuse("--sensors", why);
+  if (o.read.rate_hz > 0) refuse("--rate-hz", why);
+  if (!o.read.axes.empty()) refuse("--axes", why);
+  if (!o.palate_sensor.empty()) refuse("--palate-sensor", why);
+}
+
+void refuse_axes(const MeasuredOptions& o, const FormatTraits& format) {
+  const std::string why = fmt::format(
+      "{} is read as {}, which is in millimetres and the model's frame", o.target, format.name);
+  if (!o.read.units.empty()) refuse("--units", why);
+  if (o.read.mm_per_px > 0) refuse("--mm-per-px", why);
+  if (!o.read.facing.empty()) refuse("--facing", why);
+  if (!o.read.up.empty()) refuse("--y-grows", why);
+  if (!o.read.axes.empty()) refuse("--axes", why);
+  if (!o.palate.empty()) refuse("--palate", why + " already");
+}
+
+}  // namespace
+
+void refuse_unused(const MeasuredOptions& o, const FormatTraits& format, bool registered) {
+  refuse_unless_sensors(o, format);
+  if (registered) refuse_axes(o, format);
+  if (!o.palate_sensor.empty() && o.palate.empty())
+    refuse("--palate-sensor", "it is the sensor of the sweep that --palate gives");
+  if (!o.palate.empty() && o.registered)
+    refuse("--palate", "--registered says that the file is in the model's frame already");
+  if (o.read.mm_per_px > 0 && !o.read.units.empty() && o.read.units != "px")
+    refuse("--mm-per-px", fmt::format("--units says {}", o.read.units));
+}
+
+void refuse_unused_pixels(const MeasuredOptions& o, const FileAxes& axes) {
+  const bool pixels = axes.units.empty() || axes.units == "px" || o.read.units == "px";
+  if (o.read.mm_per_px > 0 && !pixels)
+    refuse("--mm-per-px",
+           fmt::format("{} is in {} (--units px where it is not)", o.target, axes.units));
+}
+
+void refuse_unused_noise(const MeasuredOptions& o, const std::vector<ContourFrame>& frames) {
+  if (!(o.noise_mm > 0)) return;
+  for (const ContourFrame& frame : frames)
+    for (const ContourPoint& p : frame.points)
+      if (!(p.sigma > 0)) return;
+  refuse("--noise-mm", o.target + " gives every point a noise of its own");
+}
+
+}  // namespace genio
