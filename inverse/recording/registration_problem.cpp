@@ -15,7 +15,7 @@ constexpr size_t most_trace = 42;   // independent points of a palate trace
 constexpr double usual_scale_sd = 0.06, free_scale_sd = 1;
 constexpr double tilt_sd = 20 * std::numbers::pi / 180;
 constexpr int turns = 6;           // of lines and registration
-constexpr double most_frames = 3;  // whose shapes count
+constexpr double shape_frames = 3;  // whose shapes count
 
 /// Squared distances of the points from a line times `each`, and their slope in v.
 double misfit(const std::vector<Vec2>& points, const std::vector<Vec2>& line, double each,
@@ -98,7 +98,7 @@ double minimise_with_reach(RegistrationProblem& problem, const TongueReach& reac
       problem.lines[k] = std::move(line.points), problem.strain += line.strain;
     }
     const auto frames = double(problem.contours.size());
-    if (frames > most_frames) problem.strain *= most_frames / frames;
+    if (frames > shape_frames) problem.strain *= shape_frames / frames;
     value = minimise(problem, v);
   }
   return value;

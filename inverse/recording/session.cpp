@@ -8,6 +8,7 @@
 
 #include "inverse/recording/base/curve_pieces.hpp"
 #include "inverse/recording/frame_target.hpp"
+#include "inverse/recording/sensor_place.hpp"
 
 namespace genio {
 namespace {
@@ -181,6 +182,9 @@ AlignedRecording align(const Model& model, SessionFile target,
     result.judgement.faults.push_back(
         fmt::format("its axes were read as {}, and {} fits better: is it a mirror image?",
                     described(best, content), described(others.front(), content)));
+  if (content == Content::sensors)
+    if (std::string places = place_contradiction(model, result.file); !places.empty())
+      result.judgement.faults.push_back(std::move(places));
   result.file.facing_known = true;
   result.file.remarks.push_back(
       fmt::format("{} ({})", best.reading.text(content),

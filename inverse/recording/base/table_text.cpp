@@ -17,7 +17,7 @@ constexpr size_t longest_line = size_t(4) << 20;  // bytes
 constexpr size_t shown_length = 40;
 
 /// The text with a point for its only comma, where that can be a decimal comma; else empty.
-std::string with_point(const std::string& text) {
+std::string with_decimal_point(const std::string& text) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto comma = text.find(',');
   if (comma == std::string::npos || comma == 0 || comma + 1 == text.size() ||
@@ -188,14 +188,14 @@ bool TableNumbers::parse(const std::string& field, double& value) {
     points_ = points_ || point;
     return true;
   }
-  const std::string text = commas_allowed_ ? with_point(trimmed(field)) : std::string();
+  const std::string text = commas_allowed_ ? with_decimal_point(trimmed(field)) : std::string();
   if (text.empty() || points_) return false;
   commas_ = true;
   return parse_number(text, value);
 }
 
 std::string TableNumbers::complaint(const std::string& field) const {
-  if (!with_point(trimmed(field)).empty())
+  if (!with_decimal_point(trimmed(field)).empty())
     return fmt::format(
         "{}: a decimal comma? {}; expected decimal points", in_quotes(field),
         points_ ? "Numbers before it have decimal points" : "Commas stand between the fields here");
