@@ -50,6 +50,10 @@ TEST_F(Formats, ZeroPairsAtTheEndOfAContourAreMissing) {
   EXPECT_NE(error(write("z.con", text)).find("'0 0' far from its neighbours"), std::string::npos);
 }
 
+TEST_F(Formats, ATableOfSeparatorsAloneHasNoPoint) {
+  EXPECT_NE(error(write("e.con", ",,\n,\n,,\n")).find("has no point"), std::string::npos);
+}
+
 const std::string dlc_header =
     "scorer,D,D,D,D,D,D,D,D,D\nbodyparts,vallecula,vallecula,vallecula,tongueBody,tongueBody,"
     "tongueBody,tongueTip,tongueTip,tongueTip\ncoords,x,y,likelihood,x,y,likelihood,x,y,"

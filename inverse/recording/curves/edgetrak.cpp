@@ -57,6 +57,7 @@ Table table_of(TableLines& lines) {
     if (t.rows.empty() && trimmed(fields.front()) == "X") continue;
     if (columns == 0) {
       indent = indentation(fields);
+      if (indent == fields.size()) continue;  // separators alone
       while (fields.size() > indent && trimmed(fields.back()).empty()) fields.pop_back();
       columns = fields.size() - indent;
       if (columns > most_columns)
