@@ -103,7 +103,6 @@ Model::Model(ModelParts from)
       tissue_mass(from.tissue_mass),
       rest(rest_positions(mesh)),
       surface(boundary_quads(mesh)),
-      batches(element_batches(mesh)),
       dofs(supports),
       parameters(parameter_slots(effects)),
       potentials(placed(effects, parameters, &Effect::potential)),
@@ -112,7 +111,8 @@ Model::Model(ModelParts from)
       inertias(placed(effects, parameters, &Effect::inertia)),
       filters(placed(effects, parameters, &Effect::filter)),
       contacts(placed(effects, parameters, &Effect::contact)),
-      pattern(pattern_of(mesh, effects)) {}
+      pattern(pattern_of(mesh, effects)),
+      batches(std::make_shared<const std::vector<ElementBatch>>(element_batches(mesh))) {}
 
 ModelParts Model::parts() const {
   return {name,        description, mesh, supports, muscles, landmarks,

@@ -65,7 +65,6 @@ struct Model {
   // Derived:
   const Positions rest;             ///< [m]
   const std::vector<Quad> surface;  ///< boundary faces
-  const std::vector<ElementBatch> batches;
   const DofMap dofs;
   const std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another
   // The effects' terms, each kind in the order of the effects:
@@ -78,6 +77,8 @@ struct Model {
   /// Which node pairs couple. Workspaces share it, so that they cannot outlive it.
   const std::shared_ptr<const BlockPattern> pattern;
 
+  /// The elements, batch by batch; shared for the same reason.
+  const std::shared_ptr<const std::vector<ElementBatch>> batches;
   /// What it was assembled from, to make a changed model of.
   ModelParts parts() const;
 };
