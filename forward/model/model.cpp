@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "forward/base/nearest_name.hpp"
-#include "forward/effects/surroundings/contact.hpp"
 
 namespace genio {
 

@@ -9,6 +9,7 @@
 #include "forward/algebra/stiffness.hpp"
 #include "forward/algebra/supports.hpp"
 #include "forward/base/parameter_name.hpp"
+#include "forward/effects/contact_potential.hpp"
 #include "forward/effects/description.hpp"
 #include "forward/effects/effect.hpp"
 #include "forward/geometry/element_batches.hpp"
@@ -72,8 +73,8 @@ struct Model {
   const std::vector<Placed<Dissipation>> dissipations;
   const std::vector<Placed<JointForces>> joint_forces;  ///< each reads what the dissipation reads
   const std::vector<Placed<Inertia>> inertias;
-  const std::vector<Placed<CommandFilter>> filters;  ///< commands pass them one after another
-  const std::vector<Placed<Contact>> contacts;       ///< among the potentials
+  const std::vector<Placed<CommandFilter>> filters;      ///< commands pass them one after another
+  const std::vector<Placed<ContactPotential>> contacts;  ///< among the potentials
   /// Which node pairs couple. Workspaces share it, so that they cannot outlive it.
   const std::shared_ptr<const BlockPattern> pattern;
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forward/effects/surroundings/contact.hpp"
-
 namespace genio {
 namespace {
 
