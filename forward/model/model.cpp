@@ -35,6 +35,12 @@ std::vector<ParameterSlot> parameter_slots(const std::vector<Effect>& effects) {
   return slots;
 }
 
+int index_of(const std::vector<ParameterSlot>& slots, const ParameterName& name) {
+  for (size_t k = 0; k < slots.size(); ++k)
+    if (slots[k].name == name) return int(k);
+  return index_of(slots, name.text());  // which knows what to suggest
+}
+
 /// Where what a term of the effect reads stands among the slots.
 std::vector<int> inputs_of(const Term& term, const std::vector<ParameterSlot>& slots) {
   std::vector<ParameterName> names;
@@ -43,13 +49,7 @@ std::vector<int> inputs_of(const Term& term, const std::vector<ParameterSlot>& s
   const auto borrowed = term.borrows();
   names.insert(names.end(), borrowed.begin(), borrowed.end());
   std::vector<int> inputs;
-  for (const ParameterName& name : names) {
-    const auto slot = std::find_if(slots.begin(), slots.end(),
-                                   [&](const ParameterSlot& s) { return s.name == name; });
-    // The search by text knows what to suggest where there is none.
-    inputs.push_back(slot == slots.end() ? index_of(slots, name.text())
-                                         : int(slot - slots.begin()));
-  }
+  for (const ParameterName& name : names) inputs.push_back(index_of(slots, name));
   return inputs;
 }
 
@@ -125,6 +125,10 @@ Parameters default_parameters(const Model& model) {
 }
 
 int parameter_index(const Model& model, const std::string& name) {
+  return index_of(model.parameters, name);
+}
+
+int parameter_index(const Model& model, const ParameterName& name) {
   return index_of(model.parameters, name);
 }
 

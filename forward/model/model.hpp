@@ -77,9 +77,9 @@ struct Model {
   const std::vector<Placed<ContactPotential>> contacts;  ///< among the potentials
   /// Which node pairs couple. Workspaces share it, so that they cannot outlive it.
   const std::shared_ptr<const BlockPattern> pattern;
-
   /// The elements, batch by batch; shared for the same reason.
   const std::shared_ptr<const std::vector<ElementBatch>> batches;
+
   /// What it was assembled from, to make a changed model of.
   ModelParts parts() const;
 };
@@ -89,6 +89,7 @@ Parameters default_parameters(const Model& model);
 
 /// Index of "effect.parameter"; throws InputError that suggests the nearest name.
 int parameter_index(const Model& model, const std::string& name);
+int parameter_index(const Model& model, const ParameterName& name);
 
 /// Parameter indices a command name drives: "GGP" gives GGP_L and GGP_R, "GGP_L" itself.
 /// Throws InputError that suggests the nearest name.
