@@ -41,7 +41,7 @@ endfunction()
 # With CMAKE_UNITY_BUILD=ON (presets release and ci) the sources of a folder are compiled as one
 # file, which instantiates their templates once: genio_grouped(TARGET [SINGLE_FOLDER ...]). So names
 # in the anonymous namespaces of one folder must differ; the compiler says where they do not. Folders
-# whose files are alike by design, as effects and readers of formats, are compiled file by file.
+# whose files are alike by design, as readers of formats, are compiled file by file.
 function(genio_grouped target)
   get_target_property(sources ${target} SOURCES)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
