@@ -29,9 +29,9 @@ Model changed_model(const std::string& model, const ModelChanges& changes) {
   bool kappa_given = false;
   for (const auto& text : changes.effects) {
     const auto [name, value] = parse_assignment("--effect", text);
-    if (name.find('.') == std::string::npos)
-      throw InputError(fmt::format("--effect {}: expected NAME.parameter=VALUE", text));
-    const auto [effect, key] = ParameterName::parse(name);
+    const auto parsed = ParameterName::try_parse(name);
+    if (!parsed) throw InputError(fmt::format("--effect {}: expected NAME.parameter=VALUE", text));
+    const auto& [effect, key] = *parsed;
     if (const EffectKind* kind = find_kind(effect); kind && kind->always)
       throw InputError(fmt::format("--effect {}: give commands by --force", text));
     if (effect == "gravity" && !description.effects.contains(effect))

@@ -4,6 +4,7 @@
 A line of rooms.txt is `room|sub-rooms, lowest first|public headers|libraries`, as genio_room()
 writes it. Complaints, one a line, each with its file:
 - a sub-room includes a higher one, or a file of a folder that is no sub-room;
+- a sub-room declares a class of a higher one, which is an include in hiding;
 - a room includes another that its target does not link, or a header that is not public;
 - a public header includes one of its room that is not (it could not be installed alone);
 - a folder holds more than 22 sources;
@@ -35,6 +36,25 @@ def includes(path):
             yield number, m.group(1)
 
 
+CLASS = re.compile(r"(?:class|struct) (\w+)(?: final)?( :(?!:)| \{|;)")
+
+
+def classes(path, declared):
+    """Names of the classes at the margin that a file only declares, or that it defines."""
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        if (m := CLASS.match(line)) and (m.group(2) == ";") == declared:
+            yield number, m.group(1)
+
+
+def homes(room):
+    """The sub-room folders in which each class of a room is defined."""
+    result = collections.defaultdict(set)
+    for path in room.rglob("*.hpp"):
+        for _, name in classes(path, declared=False):
+            result[name].add(path.parent.relative_to(room).as_posix())
+    return result
+
+
 def reachable(rooms, name):
     seen, todo = {name}, [name]
     while todo:
@@ -50,6 +70,7 @@ def check(source, rooms):
     for name, room in rooms.items():
         linked = reachable(rooms, name)
         order = {sub: i for i, sub in enumerate(room["subs"])}
+        home = homes(source / name) if room["subs"] else {}
         for path in sorted((source / name).rglob("*.[ch]pp")):
             file = path.relative_to(source).as_posix()
             folders[path.parent.relative_to(source).as_posix()] += 1
@@ -58,6 +79,11 @@ def check(source, rooms):
                 complaints.append(f"{file}: '{sub}' is no sub-room of {name}")
                 continue
             header = path.with_suffix(".hpp")
+            for number, declared in classes(path, declared=True) if home else ():
+                above = [h for h in home[declared] if order.get(h, 99) > order[sub]]
+                if above and len(above) == len(home[declared]):
+                    complaints.append(f"{file}:{number}: declares {declared} of '{above[0]}',"
+                                      f" which stands above '{sub}'")
             for number, target in includes(path):
                 other = target.split("/")[0]
                 if other not in rooms:

@@ -1,5 +1,9 @@
 # `cmake --install`: program, libraries, headers, data, and a package for find_package(genio).
 include(CMakePackageConfigHelpers)
+if(GENIO_NATIVE)
+  install(CODE "message(WARNING \"Genio was compiled for this machine's processor (GENIO_NATIVE=ON) and \
+may not run on another; cmake --preset portable compiles for all.\")")
+endif()
 install(TARGETS genio RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 # Made where all is built.
 include(GNUInstallDirs)

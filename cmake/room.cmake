@@ -41,7 +41,7 @@ endfunction()
 # With CMAKE_UNITY_BUILD=ON (presets release and ci) the sources of a folder are compiled as one
 # file, which instantiates their templates once: genio_grouped(TARGET [SINGLE_FOLDER ...]). So names
 # in the anonymous namespaces of one folder must differ; the compiler says where they do not. Folders
-# whose files are alike by design, as effects and readers of formats, are compiled file by file.
+# whose files are alike by design, as readers of formats, are compiled file by file.
 function(genio_grouped target)
   get_target_property(sources ${target} SOURCES)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
@@ -58,9 +58,35 @@ function(genio_grouped target)
   endforeach()
 endfunction()
 
+# Puts the headers of a folder in the place of folder/* in a list of headers.
+function(genio_spell_out list)
+  set(headers "")
+  foreach(header ${${list}})
+    if(header MATCHES "[*]$")
+      file(GLOB found RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
+           ${CMAKE_CURRENT_SOURCE_DIR}/${header}.hpp)
+      list(TRANSFORM found REPLACE "[.]hpp$" "")
+      list(APPEND headers ${found})
+    else()
+      list(APPEND headers ${header})
+    endif()
+  endforeach()
+  set(${list} ${headers} PARENT_SCOPE)
+endfunction()
+
+# Sources that must run on every processor of the kind, whatever the rest is compiled for.
+function(genio_checks_processor)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+                              SKIP_PRECOMPILE_HEADERS ON)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -march=x86-64)
+  endif()
+endfunction()
+
 # genio_room(forward
 #   ROOMS base geometry ...       sub-rooms, lowest first: a file may include its own and lower ones
-#   HEADERS base/types ...        what other rooms may include; these are installed
+#   HEADERS base/types ...        what other rooms may include; these are installed. folder/* means
+#                                 all headers of a folder
 #   SINGLY recording/curves ...   sub-rooms whose files define alike names (genio_grouped)
 #   PUBLIC ... PRIVATE ...        libraries and rooms it links
 #   INTERNAL)                     not installed
@@ -68,6 +94,7 @@ endfunction()
 # new file needs no line here. check_rooms.py holds the includes against what is said here.
 function(genio_room name)
   cmake_parse_arguments(room "INTERNAL" "" "ROOMS;HEADERS;SINGLY;PUBLIC;PRIVATE" ${ARGN})
+  genio_spell_out(room_HEADERS)
   set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   foreach(sub ${room_ROOMS})
     list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${sub}/*.cpp)

@@ -1,5 +1,6 @@
 #include "bench/experiments/hidden_change.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "bench/experiments/foreign_effects.hpp"
@@ -65,6 +66,32 @@ const std::vector<std::string>& hidden_names() {
     return n;
   }();
   return names;
+}
+
+unsigned hidden_number(const std::string& name) {
+  static const std::vector<std::string> measured_first = {"palate_contact",
+                                                          "jaw_contact",
+                                                          "gravity",
+                                                          "active_stiffening",
+                                                          "fibre_anisotropy",
+                                                          "material_nonlinearity",
+                                                          "compressibility",
+                                                          "mucosa_layer",
+                                                          "stiff_region",
+                                                          "weak_muscle",
+                                                          "extra_muscle",
+                                                          "force_length",
+                                                          "jaw_opening",
+                                                          "hyoid_mobility",
+                                                          "airway_pressure",
+                                                          "head_pose",
+                                                          "lump",
+                                                          "tether"};
+  const auto known = std::find(measured_first.begin(), measured_first.end(), name);
+  if (known != measured_first.end()) return unsigned(known - measured_first.begin()) + 1;
+  unsigned hash = 2166136261u;  // FNV-1a, the same on every machine
+  for (const unsigned char c : name) hash = (hash ^ c) * 16777619u;
+  return 101 + hash % 100000;
 }
 
 HiddenChange hidden_change(const std::string& name, const ChangeDraw& draw) {

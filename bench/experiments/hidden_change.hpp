@@ -23,6 +23,10 @@ struct HiddenChange : EffectChange {
 /// "tether", which are in no library.
 const std::vector<std::string>& hidden_names();
 
+/// Names the change in the seeds of its cases. Those that were measured first have numbers of
+/// their own; a later one has a number above 100 from its name, so that it moves no other's seeds.
+unsigned hidden_number(const std::string& name);
+
 /// One at a random place. Throws std::invalid_argument for a name that is not among them.
 HiddenChange hidden_change(const std::string& name, const ChangeDraw& draw);
 

@@ -73,15 +73,14 @@ std::vector<HiddenCase> discover_cases() {
     c.name = fmt::format("{}-{}-{}-{}", name, known ? "known" : "unknown", seed, noise_seed);
     cases.push_back(std::move(c));
   };
-  const auto& names = hidden_names();
   for (bool known : {true, false}) {
-    for (size_t i = 0; i < names.size(); ++i)
+    for (const std::string& name : hidden_names())
       for (unsigned k = 0; k < 3; ++k) {
-        const bool foreign = names[i] == "lump" || names[i] == "tether";
+        const bool foreign = name == "lump" || name == "tether";
         for (double strength : {1.0, 0.5})
           if (!foreign || strength == 1.0)
-            add(fmt::format("{}-{}", names[i], strength), {names[i]}, strength, known,
-                unsigned(100 * (i + 1) + 10 * k) + (strength == 1 ? 0 : 1), k + 1);
+            add(fmt::format("{}-{}", name, strength), {name}, strength, known,
+                100 * hidden_number(name) + 10 * k + (strength == 1 ? 0 : 1), k + 1);
       }
     for (unsigned truth = 0; truth < 10; ++truth)
       for (unsigned draw = 0; draw < 10; ++draw)

@@ -44,7 +44,7 @@ std::vector<FittedCondition> without_candidate(const Candidate& candidate, const
   Vector step = Vector::Zero(f.u.size());
   for (const FreeNumber& n : candidate.strengths)
     for (size_t i = 0; i < first.unknowns.size(); ++i)
-      if (first.unknowns[i].name == candidate.name_of(n).text())
+      if (first.unknowns[i].parameter == candidate.name_of(n))
         step[first.which[i]] = first.unknowns[i].z_of(n.info.absent) - first.z[Eigen::Index(i)];
   return response(f, errors, f.jacobian() * step);
 }

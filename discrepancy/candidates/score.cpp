@@ -71,7 +71,7 @@ Forces forces_by(const Hypothesis& h, const FreeNumber& strength, const Model& m
   Forces df = Forces::Zero(c.x.size());
   if (find_effect(model, h.effect)) {  // others may read its parameters too: a jaw that touches
     for (const std::string& key : strength.keys) {
-      const int k[] = {parameter_index(model, h.effect + "." + key)};
+      const int k[] = {parameter_index(model, ParameterName{h.effect, key})};
       df += force_derivatives(model, c.x, c.parameters, k).col(0);
     }
     return df;
@@ -82,7 +82,7 @@ Forces forces_by(const Hypothesis& h, const FreeNumber& strength, const Model& m
   std::vector<double> values;
   for (const ParameterInfo& i : info) values.push_back(i.value);
   for (const ParameterName& name : potential.borrows())
-    values.push_back(c.parameters[parameter_index(model, name.text())]);
+    values.push_back(c.parameters[parameter_index(model, name)]);
   for (const std::string& key : strength.keys)
     for (size_t i = 0; i < info.size(); ++i)
       if (info[i].name == key) potential.add_force_derivative(c.x, values, int(i), df);

@@ -79,13 +79,13 @@ Vector guessed(ConditionSet& set, size_t k, const Answer& answer, JointProblem::
 }
 
 Vector start_of(const FittedCondition& before, const std::vector<Unknown>& unknowns,
-                const std::map<std::string, double>& shared, Vector z) {
+                const std::map<ParameterName, double>& shared, Vector z) {
   for (size_t i = 0; i < unknowns.size(); ++i) {
     const Unknown& c = unknowns[i];
     for (size_t j = 0; j < before.unknowns.size(); ++j)
       if (before.unknowns[j].name == c.name)
         z[Eigen::Index(i)] = c.z_of(before.unknowns[j].value(before.z[Eigen::Index(j)]));
-    if (const auto s = shared.find(c.name); s != shared.end())
+    if (const auto s = shared.find(c.parameter); s != shared.end())
       z[Eigen::Index(i)] = c.z_of(s->second);
   }
   return z;
@@ -139,10 +139,11 @@ std::vector<SharedEstimate> shared_estimates(const JointFit& f, const Model& mod
   for (size_t i = 0; i < c.unknowns.size(); ++i) {
     if (c.which[i] < f.own) continue;
     const Unknown& unknown = c.unknowns[i];
-    SharedEstimate e{.name = ParameterName::parse(unknown.name),
+    SharedEstimate e{.name = unknown.parameter,
                      .unit = unknown.unit,
                      .value = unknown.value(c.z[Eigen::Index(i)]),
-                     .kind = unknown.kind};
+                     .kind = unknown.kind,
+                     .axis = unknown.axis};
     e.low = e.high = e.value;
     if (const auto at = std::find(open.begin(), open.end(), c.which[i]); at != open.end()) {
       const Eigen::Index k = at - open.begin();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "discrepancy/conditions/condition_set.hpp"
 #include "forward/base/parameter_name.hpp"
@@ -18,7 +19,7 @@ constexpr double surface_smoothing = 1.5e-3;
 /// Parameters of the model that all conditions share, and what is believed of them; a head pose
 /// where the data themselves are laid wrongly.
 struct SharedPrior {
-  std::map<std::string, ParameterPrior> parameters;
+  std::map<ParameterName, ParameterPrior> parameters;
   std::optional<HeadPosePrior> head_pose;
   double log_weight = 0;  ///< of these beliefs, among those there are; counts as evidence
 };
@@ -39,6 +40,7 @@ struct SharedEstimate {
   std::string unit;
   double value = 0, sd = 0, low = 0, high = 0;  ///< 90 % interval
   Unknown::Kind kind = Unknown::Kind::parameter;
+  PoseAxis axis = PoseAxis::x;  ///< of a part of the head pose
 };
 
 struct JointFit {
@@ -73,11 +75,13 @@ struct Errors {
   Eigen::LLT<Matrix> covariance;
 };
 
+/// Conditions, fitted before, that a fit starts from. They must outlive it.
+using FitStart = std::optional<std::span<const FittedCondition>>;
+
 struct FitOptions {
-  /// Starts where these ended; null: each condition is first inverted by itself.
-  const std::vector<FittedCondition>* start = nullptr;
-  std::map<std::string, double> shared_start = {};  ///< of shared parameters, in their own unit
-  std::map<std::string, double> fixed = {};         ///< shared parameters that stay as they are
+  FitStart start = {};  ///< none: each condition is first inverted by itself
+  std::map<ParameterName, double> shared_start = {};  ///< of shared parameters, in their own unit
+  std::map<ParameterName, double> fixed = {};         ///< shared parameters that stay as they are
   double precision = 0.5;  ///< of the log posterior: enough to compare models
   /// Gives up once minus the log posterior does not come below this.
   double give_up_above = std::numeric_limits<double>::infinity();

@@ -79,7 +79,8 @@ JointProblem::JointProblem(ConditionSet& set, const SharedPrior& shared, const E
   const bool corrected = errors && !errors->corrections.empty();
   for (size_t k = 0; k < set.size(); ++k) {
     Prior prior = set.prior(k);
-    prior.parameters = shared.parameters;
+    prior.parameters.clear();
+    for (const auto& [name, belief] : shared.parameters) prior.parameters[name.text()] = belief;
     if (shared.head_pose) prior.head_pose = shared.head_pose;
     parts_.push_back(std::make_unique<Part>(set, k, prior, starting(set, k, options),
                                             corrected ? errors->corrections[k].added : Vector()));
@@ -95,10 +96,10 @@ JointProblem::JointProblem(ConditionSet& set, const SharedPrior& shared, const E
 }
 
 /// Shared unknowns that stay; what is believed of them does not matter any more.
-void JointProblem::fix(const std::map<std::string, double>& values) {
+void JointProblem::fix(const std::map<ParameterName, double>& values) {
   const auto& unknowns = parts_.front()->objective.unknowns();
   for (size_t i = 0; i < unknowns.size(); ++i) {
-    const auto at = values.find(unknowns[i].name);
+    const auto at = values.find(unknowns[i].parameter);
     const Eigen::Index u = parts_.front()->which[i];
     if (at == values.end() || u < own_) continue;
     lower_[u] = upper_[u] = unknowns[i].z_of(at->second);

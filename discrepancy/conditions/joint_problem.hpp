@@ -53,7 +53,7 @@ class JointProblem final : public MisfitProblem {
 
  private:
   void number_unknowns();
-  void fix(const std::map<std::string, double>& values);
+  void fix(const std::map<ParameterName, double>& values);
 
   const Errors* errors_;
   std::vector<std::unique_ptr<Part>> parts_;

@@ -155,13 +155,13 @@ Condition read_condition(const TomlReader& file, const toml::node& node, const M
 }  // namespace
 
 ParameterName effect_parameter(const std::string& name, const std::string& source) {
-  const bool is_whole = name.find('.') != std::string::npos;
-  const std::string effect = is_whole ? ParameterName::parse(name).effect : name;
+  const auto whole = ParameterName::try_parse(name);
+  const std::string effect = whole ? whole->effect : name;
   const EffectKind* kind = find_kind(effect);
   if (!kind || kind->always)
     throw InputError(fmt::format("{}: '{}' is no effect; did you mean {}?", source, effect,
                                  nearest_name(effect, effect_names())));
-  if (is_whole) return ParameterName::parse(name);
+  if (whole) return *whole;
   if (kind->main.empty())
     throw InputError(
         fmt::format("{}: '{}' has several parameters; write {}.PARAMETER", source, name, name));

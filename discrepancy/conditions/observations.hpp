@@ -36,7 +36,7 @@ struct Observations {
 /// Throws InputError naming file, line and field.
 Observations read_observations(const std::string& path, const Model& model);
 
-/// "jaw_opening" alone means an effect's first parameter. Throws InputError naming `source` for
+/// "jaw_opening" alone means its EffectKind::main. Throws InputError naming `source` for
 /// what the library of effects has not.
 ParameterName effect_parameter(const std::string& name, const std::string& source);
 

@@ -16,9 +16,17 @@ PosedModel posed_model_of(const ModelFit& m) {
   PosedModel posed{with_fitted(m.description, m.fit), {}};
   for (const SharedEstimate& s : m.fit.shared) {
     if (s.kind != Unknown::Kind::pose) continue;
-    if (s.name.key == "x") posed.pose.shift[0] = s.value;
-    if (s.name.key == "z") posed.pose.shift[1] = s.value;
-    if (s.name.key == "turn") posed.pose.turn = s.value;
+    switch (s.axis) {
+      case PoseAxis::x:
+        posed.pose.shift[0] = s.value;
+        break;
+      case PoseAxis::z:
+        posed.pose.shift[1] = s.value;
+        break;
+      case PoseAxis::turn:
+        posed.pose.turn = s.value;
+        break;
+    }
   }
   return posed;
 }
@@ -34,8 +42,7 @@ ModelDescription with_fitted(ModelDescription d, const JointFit& fit) {
   return d;
 }
 
-ModelFit with_heldout_fit(ModelFit m, const std::vector<FittedCondition>* start,
-                          const DataErrors& errors) {
+ModelFit with_heldout_fit(ModelFit m, const FitStart& start, const DataErrors& errors) {
   const Observations& observations = m.set->observations();
   const auto members = heldout_conditions(observations);
   if (members.empty()) return m;
@@ -46,7 +53,7 @@ ModelFit with_heldout_fit(ModelFit m, const std::vector<FittedCondition>* start,
   FitOptions options{start};
   shared.head_pose = m.shared.head_pose;
   for (const SharedEstimate& e : m.fit.shared)
-    if (e.kind == Unknown::Kind::pose) options.fixed[e.name.text()] = e.value;
+    if (e.kind == Unknown::Kind::pose) options.fixed[e.name] = e.value;
   options.shared_start = options.fixed;
   m.heldout = fit(*m.heldout_set, shared, errors.heldout.get(), options);
   return m;

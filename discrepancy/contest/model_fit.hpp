@@ -38,9 +38,8 @@ struct DataErrors {
 ModelFit with_residual_test(ModelFit model, const Errors& errors);
 
 /// The same model with the held-out conditions fitted, its shared parameters at their fitted
-/// values, from `start` (null: inverted anew). As it was where no conditions are held out.
-ModelFit with_heldout_fit(ModelFit model, const std::vector<FittedCondition>* start,
-                          const DataErrors& errors);
+/// values, from `start` (none: inverted anew). As it was where no conditions are held out.
+ModelFit with_heldout_fit(ModelFit model, const FitStart& start, const DataErrors& errors);
 
 /// True where a fit explains the data better than `other`, whatever the volumes of the posteriors.
 bool improves(const JointFit& fit, const JointFit& other);

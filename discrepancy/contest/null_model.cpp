@@ -48,7 +48,7 @@ NullModel with_winners_heldout(NullModel null_model, const ModelFit& winner,
                                const ErrorModel& error_model) {
   ModelFit& m = null_model.model;
   m.heldout_set = winner.heldout_set, m.heldout = winner.heldout;
-  ModelFit next = with_heldout_fit(m, &m.heldout.conditions, null_model.errors);
+  ModelFit next = with_heldout_fit(m, m.heldout.conditions, null_model.errors);
   if (!reaches_all(next.heldout, m.heldout)) return null_model;
   m = std::move(next);
   auto [corrections, refinement] = corrections_at(*m.heldout_set, m.heldout, null_model.refinement);
@@ -56,7 +56,7 @@ NullModel with_winners_heldout(NullModel null_model, const ModelFit& winner,
   DataErrors errors = null_model.errors;
   errors.heldout = std::make_shared<const Errors>(
       errors_at(*m.heldout_set, m.heldout, std::move(corrections), error_model));
-  next = with_heldout_fit(m, &m.heldout.conditions, errors);
+  next = with_heldout_fit(m, m.heldout.conditions, errors);
   if (!reaches_all(next.heldout, m.heldout) ||
       runs_away(next.heldout, *errors.heldout, m.heldout, *null_model.errors.heldout, far_behind))
     return null_model;
@@ -67,7 +67,7 @@ NullModel with_winners_heldout(NullModel null_model, const ModelFit& winner,
 /// The better of `last` and of the fit from `start`, which gives up far behind `value`.
 JointFit better_from(const std::vector<FittedCondition>& start, double value, ConditionSet& set,
                      const SharedPrior& shared, const Errors& errors, const JointFit& last) {
-  FitOptions options{&start};
+  FitOptions options{.start = start};
   options.give_up_above = value + far_behind;
   JointFit f = fit(set, shared, &errors, options);
   return f.converged && f.log_evidence > last.log_evidence ? f : last;
@@ -84,12 +84,12 @@ NullModel fitted_null_model(const ModelDescription& description, const Observati
   if (correct_mesh)
     null_model.refinement = std::make_shared<const Refinement>(description, observations);
   m.set = set_of(description, observations);
-  JointFit start = fit(*m.set, {}, nullptr, {.start = &guess.fitted, .precision = rough_precision});
+  JointFit start = fit(*m.set, {}, nullptr, {.start = guess.fitted, .precision = rough_precision});
   null_model = with_fitted_settled(std::move(null_model), std::move(start), error_model);
   const auto heldout = heldout_conditions(observations);
   if (heldout.empty()) return null_model;
   m.heldout_set = std::make_shared<ConditionSet>(description, observations, heldout);
-  start = fit(*m.heldout_set, {}, nullptr, {.start = &guess.heldout, .precision = rough_precision});
+  start = fit(*m.heldout_set, {}, nullptr, {.start = guess.heldout, .precision = rough_precision});
   SettledFit s =
       settled(*m.heldout_set, {}, {std::move(start), nullptr, null_model.refinement}, error_model);
   m.heldout = std::move(s.fit), null_model.errors.heldout = std::move(s.errors);
@@ -106,7 +106,8 @@ NullModel with_winner(const NullModel& before, const ModelFit& winner,
   ModelFit& m = next.model;
   m.description = winner.description, m.shared = winner.shared;
   m.set = set_of(m.description, before.model.set->observations());
-  JointFit start = fit(*m.set, m.shared, next.errors.fitted.get(), {&winner.fit.conditions});
+  JointFit start =
+      fit(*m.set, m.shared, next.errors.fitted.get(), {.start = winner.fit.conditions});
   next = with_fitted_settled(std::move(next), std::move(start), error_model);
   return next.model.heldout_set ? with_winners_heldout(std::move(next), winner, error_model) : next;
 }

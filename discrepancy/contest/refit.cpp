@@ -23,8 +23,8 @@ struct Task {
 };
 
 /// Starting values of a candidate's numbers, in their own unit.
-std::map<std::string, double> starts(const Candidate& c, const Score& s, double farthest) {
-  std::map<std::string, double> result;
+std::map<ParameterName, double> starts(const Candidate& c, const Score& s, double farthest) {
+  std::map<ParameterName, double> result;
   for (size_t i = 0; i < c.strengths.size(); ++i) {
     const FreeNumber& n = c.strengths[i];
     const double least = 0.05 * n.belief.typical;  // off the kink of a one-sided one
@@ -32,7 +32,7 @@ std::map<std::string, double> starts(const Candidate& c, const Score& s, double 
     double off = std::clamp(n.off(s.estimate[Eigen::Index(i)]), -farthest * n.belief.typical,
                             farthest * n.belief.typical);
     if (std::abs(off) < least) off = n.info.absent < n.info.upper ? least : -least;
-    result[c.name_of(n).text()] = std::clamp(n.at(off), n.info.lower, n.info.upper);
+    result[c.name_of(n)] = std::clamp(n.at(off), n.info.lower, n.info.upper);
   }
   return result;
 }
@@ -45,7 +45,7 @@ SharedPrior believed(SharedPrior shared, const Candidate& c, double scale) {
   } else {
     const auto add = [&](const std::vector<FreeNumber>& numbers, double by) {
       for (const FreeNumber& n : numbers)
-        shared.parameters[c.name_of(n).text()] = {
+        shared.parameters[c.name_of(n)] = {
             {n.info.absent, by * n.belief.typical}, n.info.lower, n.info.upper, n.belief.ratio};
     };
     add(c.hypothesis->strengths, scale), add(c.hypothesis->details, 1);
@@ -64,9 +64,9 @@ double scale_of(const Candidate& c, const JointFit& fit) {
   return scale;
 }
 
-std::map<std::string, double> values_of(const JointFit& fit) {
-  std::map<std::string, double> result;
-  for (const SharedEstimate& e : fit.shared) result[e.name.text()] = e.value;
+std::map<ParameterName, double> values_of(const JointFit& fit) {
+  std::map<ParameterName, double> result;
+  for (const SharedEstimate& e : fit.shared) result[e.name] = e.value;
   return result;
 }
 
@@ -79,10 +79,10 @@ JointFit fit_from(const ModelFit& m, const Task& task, double farthest) {
   Vector step(task.score.signature.cols());
   for (size_t i = 0; i < candidate.strengths.size(); ++i) {
     const FreeNumber& n = candidate.strengths[i];
-    step[Eigen::Index(i)] = n.off(options.shared_start.at(candidate.name_of(n).text()));
+    step[Eigen::Index(i)] = n.off(options.shared_start.at(candidate.name_of(n)));
   }
   const auto start = response(task.null_model.fit, task.errors, task.score.signature * step);
-  options.start = &start;
+  options.start = start;
   options.give_up_above = task.give_up_above;
   return fit(*m.set, m.shared, &task.errors, options);
 }
@@ -105,7 +105,7 @@ ModelFit rescaled(ModelFit m, const Task& task) {
     if (now < misjudged * scale && scale < misjudged * now) break;
     scale = now;
     m.shared = believed(task.null_model.shared, task.candidate, scale);
-    FitOptions options{&m.fit.conditions, values_of(m.fit)};
+    FitOptions options{m.fit.conditions, values_of(m.fit)};
     options.give_up_above = task.give_up_above;
     m.fit = fit(*m.set, m.shared, &task.errors, options);
   }

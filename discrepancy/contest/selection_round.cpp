@@ -57,9 +57,9 @@ ModelFit with_heldout_answer(ModelFit m, const Candidate& candidate, const NullM
   const JointFit& before = null_model.model.heldout;
   const auto start = with_candidate(candidate, m.fit.shared, *null_model.model.heldout_set, before,
                                     *null_model.errors.heldout, influences);
-  m = with_heldout_fit(std::move(m), &start, null_model.errors);
+  m = with_heldout_fit(std::move(m), start, null_model.errors);
   if (!reaches_all(m.heldout, before) || (candidate.is_switch() && !improves(m.heldout, before)))
-    m = with_heldout_fit(std::move(m), nullptr, null_model.errors);
+    m = with_heldout_fit(std::move(m), {}, null_model.errors);
   return m;
 }
 

@@ -9,7 +9,7 @@ constexpr int most_passes = 2;  // of corrections and fits under them
 
 JointFit fit_of_all(ConditionSet& set, const SharedPrior& shared, const Errors& errors,
                     const JointFit& start, double precision) {
-  JointFit next = fit(set, shared, &errors, {.start = &start.conditions, .precision = precision});
+  JointFit next = fit(set, shared, &errors, {.start = start.conditions, .precision = precision});
   expect_all(set, next);
   return next;
 }
@@ -62,7 +62,7 @@ ModelFit refit_with_mesh_error(const ModelFit& as_refitted, const DataErrors& er
     auto [corrections, known] = corrections_at(*m.set, m.fit, m.refinement);
     m.refinement = std::move(known);
     under.fitted = with_corrections(*under.fitted, std::move(corrections));
-    JointFit next = fit(*m.set, m.shared, under.fitted.get(), {&m.fit.conditions});
+    JointFit next = fit(*m.set, m.shared, under.fitted.get(), {.start = m.fit.conditions});
     if (!next.converged) return as_refitted;
     m.fit = std::move(next);
   }
@@ -71,7 +71,7 @@ ModelFit refit_with_mesh_error(const ModelFit& as_refitted, const DataErrors& er
   auto [corrections, known] = corrections_at(*m.heldout_set, m.heldout, m.refinement);
   m.refinement = std::move(known);
   under.heldout = with_corrections(*under.heldout, std::move(corrections));
-  m = with_heldout_fit(std::move(m), &as_refitted.heldout.conditions, under);
+  m = with_heldout_fit(std::move(m), as_refitted.heldout.conditions, under);
   return reaches_all(m.heldout, as_refitted.heldout) ? m : as_refitted;
 }
 

@@ -4,11 +4,15 @@
 
 namespace genio {
 
-ParameterName ParameterName::parse(const std::string& text) {
+std::optional<ParameterName> ParameterName::try_parse(const std::string& text) {
   const auto dot = text.find('.');
-  if (dot == 0 || dot == std::string::npos || dot + 1 == text.size())
-    throw InputError(text + ": expected EFFECT.PARAMETER, as in gravity.z");
-  return {text.substr(0, dot), text.substr(dot + 1)};
+  if (dot == 0 || dot == std::string::npos || dot + 1 == text.size()) return {};
+  return ParameterName{text.substr(0, dot), text.substr(dot + 1)};
+}
+
+ParameterName ParameterName::parse(const std::string& text) {
+  if (auto name = try_parse(text)) return *std::move(name);
+  throw InputError(text + ": expected EFFECT.PARAMETER, as in gravity.z");
 }
 
 }  // namespace genio

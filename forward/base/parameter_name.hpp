@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 namespace genio {
@@ -12,6 +13,8 @@ struct ParameterName {
 
   /// From "effect.key". Throws InputError when either part is missing.
   static ParameterName parse(const std::string& text);
+  /// The same; nothing where either part is missing.
+  static std::optional<ParameterName> try_parse(const std::string& text);
 };
 
 }  // namespace genio

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "forward/effects/command_filter.hpp"
+#include "forward/effects/contact_potential.hpp"
 #include "forward/effects/dissipation.hpp"
 #include "forward/effects/inertia.hpp"
 #include "forward/effects/joint_forces.hpp"
 #include "forward/effects/potential.hpp"
 
 namespace genio {
-
-class Contact;
 
 /// What an effect adds to a model: to its energy, to its dissipation, to its mass, or between
 /// commands and forces. At least one term is there, and all terms have the effect's name.
@@ -25,7 +24,7 @@ struct Effect {
   /// Force of potential and dissipation at once, where they can share work.
   std::shared_ptr<const JointForces> joint = nullptr;
   /// The potential as a contact, where it is one.
-  std::shared_ptr<const Contact> contact = nullptr;
+  std::shared_ptr<const ContactPotential> contact = nullptr;
   /// True where its parameters are the commands of muscles.
   bool commands = false;
 

@@ -4,10 +4,11 @@ namespace genio {
 
 using lanes::Lane;
 
-VolumeGradients::VolumeGradients(const std::vector<ElementBatch>& batches, const Positions& x) {
-  parts_.resize(batches.size());
-  for (size_t b = 0; b < batches.size(); ++b) {
-    const ElementBatch& batch = batches[b];
+VolumeGradients::VolumeGradients(Batches batches, const Positions& x)
+    : batches_(std::move(batches)) {
+  parts_.resize(batches_->size());
+  for (size_t b = 0; b < parts_.size(); ++b) {
+    const ElementBatch& batch = (*batches_)[b];
     elements_ += batch.count;
     auto& g = parts_[b].gradient;
     parts_[b].batch = &batch;

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "forward/geometry/element_batches.hpp"
@@ -6,10 +7,13 @@
 namespace genio {
 
 /// Derivatives G = dv_e/dx of the element volumes with respect to nodal positions, at one shape.
+/// They keep the batches that they were taken of.
 class VolumeGradients {
  public:
+  using Batches = std::shared_ptr<const std::vector<ElementBatch>>;
+
   VolumeGradients() = default;
-  VolumeGradients(const std::vector<ElementBatch>& batches, const Positions& x);
+  VolumeGradients(Batches batches, const Positions& x);
 
   bool empty() const { return parts_.empty(); }
   Eigen::Index elements() const { return elements_; }
@@ -23,8 +27,9 @@ class VolumeGradients {
  private:
   struct Part {
     std::array<std::array<lanes::Lane, 3>, 8> gradient;  // dv_e/dx_a [m^2]
-    const ElementBatch* batch;
+    const ElementBatch* batch;                           // among batches_
   };
+  Batches batches_;
   std::vector<Part> parts_;
   Eigen::Index elements_ = 0;
 };

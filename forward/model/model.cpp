@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "forward/base/nearest_name.hpp"
-#include "forward/effects/surroundings/contact.hpp"
 
 namespace genio {
 
@@ -36,6 +35,12 @@ std::vector<ParameterSlot> parameter_slots(const std::vector<Effect>& effects) {
   return slots;
 }
 
+int index_of(const std::vector<ParameterSlot>& slots, const ParameterName& name) {
+  for (size_t k = 0; k < slots.size(); ++k)
+    if (slots[k].name == name) return int(k);
+  return index_of(slots, name.text());  // which knows what to suggest
+}
+
 /// Where what a term of the effect reads stands among the slots.
 std::vector<int> inputs_of(const Term& term, const std::vector<ParameterSlot>& slots) {
   std::vector<ParameterName> names;
@@ -44,13 +49,7 @@ std::vector<int> inputs_of(const Term& term, const std::vector<ParameterSlot>& s
   const auto borrowed = term.borrows();
   names.insert(names.end(), borrowed.begin(), borrowed.end());
   std::vector<int> inputs;
-  for (const ParameterName& name : names) {
-    const auto slot = std::find_if(slots.begin(), slots.end(),
-                                   [&](const ParameterSlot& s) { return s.name == name; });
-    // The search by text knows what to suggest where there is none.
-    inputs.push_back(slot == slots.end() ? index_of(slots, name.text())
-                                         : int(slot - slots.begin()));
-  }
+  for (const ParameterName& name : names) inputs.push_back(index_of(slots, name));
   return inputs;
 }
 
@@ -103,7 +102,6 @@ Model::Model(ModelParts from)
       tissue_mass(from.tissue_mass),
       rest(rest_positions(mesh)),
       surface(boundary_quads(mesh)),
-      batches(element_batches(mesh)),
       dofs(supports),
       parameters(parameter_slots(effects)),
       potentials(placed(effects, parameters, &Effect::potential)),
@@ -112,7 +110,8 @@ Model::Model(ModelParts from)
       inertias(placed(effects, parameters, &Effect::inertia)),
       filters(placed(effects, parameters, &Effect::filter)),
       contacts(placed(effects, parameters, &Effect::contact)),
-      pattern(pattern_of(mesh, effects)) {}
+      pattern(pattern_of(mesh, effects)),
+      batches(std::make_shared<const std::vector<ElementBatch>>(element_batches(mesh))) {}
 
 ModelParts Model::parts() const {
   return {name,        description, mesh, supports, muscles, landmarks,
@@ -126,6 +125,10 @@ Parameters default_parameters(const Model& model) {
 }
 
 int parameter_index(const Model& model, const std::string& name) {
+  return index_of(model.parameters, name);
+}
+
+int parameter_index(const Model& model, const ParameterName& name) {
   return index_of(model.parameters, name);
 }
 

@@ -9,6 +9,7 @@
 #include "forward/algebra/stiffness.hpp"
 #include "forward/algebra/supports.hpp"
 #include "forward/base/parameter_name.hpp"
+#include "forward/effects/contact_potential.hpp"
 #include "forward/effects/description.hpp"
 #include "forward/effects/effect.hpp"
 #include "forward/geometry/element_batches.hpp"
@@ -65,7 +66,6 @@ struct Model {
   // Derived:
   const Positions rest;             ///< [m]
   const std::vector<Quad> surface;  ///< boundary faces
-  const std::vector<ElementBatch> batches;
   const DofMap dofs;
   const std::vector<ParameterSlot> parameters;  ///< all effects' parameters, one after another
   // The effects' terms, each kind in the order of the effects:
@@ -73,10 +73,12 @@ struct Model {
   const std::vector<Placed<Dissipation>> dissipations;
   const std::vector<Placed<JointForces>> joint_forces;  ///< each reads what the dissipation reads
   const std::vector<Placed<Inertia>> inertias;
-  const std::vector<Placed<CommandFilter>> filters;  ///< commands pass them one after another
-  const std::vector<Placed<Contact>> contacts;       ///< among the potentials
+  const std::vector<Placed<CommandFilter>> filters;      ///< commands pass them one after another
+  const std::vector<Placed<ContactPotential>> contacts;  ///< among the potentials
   /// Which node pairs couple. Workspaces share it, so that they cannot outlive it.
   const std::shared_ptr<const BlockPattern> pattern;
+  /// The elements, batch by batch; shared for the same reason.
+  const std::shared_ptr<const std::vector<ElementBatch>> batches;
 
   /// What it was assembled from, to make a changed model of.
   ModelParts parts() const;
@@ -87,6 +89,7 @@ Parameters default_parameters(const Model& model);
 
 /// Index of "effect.parameter"; throws InputError that suggests the nearest name.
 int parameter_index(const Model& model, const std::string& name);
+int parameter_index(const Model& model, const ParameterName& name);
 
 /// Parameter indices a command name drives: "GGP" gives GGP_L and GGP_R, "GGP_L" itself.
 /// Throws InputError that suggests the nearest name.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forward/effects/surroundings/contact.hpp"
-
 namespace genio {
 namespace {
 
@@ -89,7 +87,7 @@ Bulk bulk(const Model& model, const Positions& x, const Parameters& p) {
   for (const auto& e : model.potentials)
     if (const NewtonAid* aid = e->newton_aid()) aid->add_bulk_modulus(e.values(p), kappa);
   Bulk result{VolumeGradients(model.batches, x), {}, {}, Vector(kappa.size())};
-  for (const ElementBatch& batch : model.batches)
+  for (const ElementBatch& batch : *model.batches)
     for (int l = 0; l < batch.count; ++l) result.volume[batch.element[l]] = batch.volume[l];
   result.stiffness = kappa.cwiseQuotient(result.volume);
   // Volumes are homogeneous of third degree in the positions (Euler).

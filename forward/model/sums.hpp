@@ -25,7 +25,7 @@ void stiffness(const Model& model, const Positions& x, const Parameters& p, Stif
 /// Total stiffness for a Newton step, see NewtonAid::add_step_stiffness.
 void step_stiffness(const Model& model, const Positions& x, const LinearStep& led,
                     const Parameters& p, Stiffness& k);
-/// The part of the stiffness at x that keeps volumes. It refers to the model's batches.
+/// The part of the stiffness at x that keeps volumes. It shares the model's batches.
 Bulk bulk(const Model& model, const Positions& x, const Parameters& p);
 /// Smallest of the potentials' step limits.
 double step_limit(const Model& model, const Positions& x, const Positions& along,

@@ -105,7 +105,7 @@ CommandsOverTime read_commands(const Model& model, const std::string& path,
     for (size_t i = 1; i < cells.size(); ++i) {
       const double value = number(cells[i], path, line, columns[i]);
       try {
-        if (columns[i].find('.') != std::string::npos) set_parameter(model, columns[i], value, p);
+        if (ParameterName::try_parse(columns[i])) set_parameter(model, columns[i], value, p);
         else set_command(model, without_unit(columns[i]), value, p);
       } catch (const InputError& e) {
         throw InputError(fmt::format("{}:{}: {}", path, line, e.what()));

@@ -30,11 +30,4 @@ int pressed(const BoxGaussian& density, Eigen::Index i);
 /// is not positive definite.
 Matrix sample(const BoxGaussian& density, int count);
 
-/// A normal cut at lower < upper: its mode, standard deviation and shortest interval that holds
-/// nine in ten.
-struct CutNormal {
-  double mode, sd, low, high;
-};
-CutNormal cut_normal(double centre, double sd, double lower, double upper);
-
 }  // namespace genio

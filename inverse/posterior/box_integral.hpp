@@ -19,4 +19,11 @@ BoxIntegral integral(const BoxGaussian& density, const Vector& spikes);
 /// Its logarithm without point masses.
 double log_integral(const BoxGaussian& density);
 
+/// A normal cut at lower < upper: its mode, standard deviation and shortest interval that holds
+/// nine in ten.
+struct CutNormal {
+  double mode, sd, low, high;
+};
+CutNormal cut_normal(double centre, double sd, double lower, double upper);
+
 }  // namespace genio

@@ -15,11 +15,13 @@ struct TongueState {
   AtlasCache atlas;
 };
 
-/// Whole and half tongue of one model, each made when it is first needed. One a thread; the model
-/// must outlive it.
+/// Whole and half tongue of one model, each made when it is first needed. One a thread. It keeps a
+/// copy of the model, so that the model itself may go.
 class InferWorkspace {
  public:
-  explicit InferWorkspace(const Model& model) : model_(model) {}
+  explicit InferWorkspace(const Model& model) : model_(std::make_shared<const Model>(model)) {}
+  /// Throws std::invalid_argument when it was made for another model.
+  void check(const Model& model) const;
 
   TongueState& whole();
   /// nullptr where the model, or what the prior estimates along, is not symmetric.
@@ -28,7 +30,7 @@ class InferWorkspace {
   const Mirror& mirror() const { return *mirror_; }
 
  private:
-  const Model& model_;
+  std::shared_ptr<const Model> model_;
   std::optional<TongueState> whole_, half_;
   std::unique_ptr<const Mirror> mirror_;
   std::optional<std::vector<std::string>> asked_;  // the parameters that mirror_ is for

@@ -125,6 +125,7 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
 Answer infer_from_starts(const Model& model, const Target& target, const Prior& prior,
                          InferWorkspace& ws, const InferOptions& options,
                          const StartOptions& start_options) {
+  ws.check(model);
   if (target.empty()) throw InputError("the target has no points");
   if (fits_half_tongue(target, prior, options)) {
     prior_terms(prior, unknowns_of(model, prior, true));  // errors speak of the whole tongue

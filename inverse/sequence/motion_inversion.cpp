@@ -141,6 +141,7 @@ MotionAnswer unfolded(const Mirror& mirror, MotionAnswer answer) {
 
 MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& frames,
                           const Prior& prior, InferWorkspace& ws, const MotionOptions& options) {
+  ws.check(model);
   check(model, frames, prior);
   MotionOptions o = options;
   const auto all = [&](auto what) { return std::all_of(frames.begin(), frames.end(), what); };

@@ -155,6 +155,7 @@ void summarise(std::vector<std::unique_ptr<JointFrame>>& frames, const SequenceP
 std::vector<Answer> infer_sequence(const Model& model, const std::vector<SequenceFrame>& all,
                                    const Prior& prior, InferWorkspace& ws,
                                    const SequenceOptions& o) {
+  ws.check(model);
   const Reporter report{o.progress};
   std::vector<Answer> result(all.size());
   std::vector<SequenceFrame> frames;

@@ -52,7 +52,8 @@ std::vector<Estimate> commands_at(const MotionAnswer& a, double time_s) {
 
 std::string commands_csv(const MotionAnswer& a) {
   std::string text = "time_s";
-  for (const auto& c : a.estimates.front()) text += "," + c.name + (c.unit == "N" ? "_N" : "");
+  for (const auto& c : a.estimates.front())
+    text += "," + c.name + (c.kind == Unknown::Kind::muscle ? "_N" : "");
   for (size_t j = 0; j < a.knots_s.size(); ++j) {
     text += fmt::format("\n{:.6f}", a.knots_s[j]);
     for (const auto& c : a.estimates[j]) text += fmt::format(",{:.6g}", c.best);

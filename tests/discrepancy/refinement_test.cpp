@@ -27,7 +27,7 @@ TEST_F(RefinementTest, AChangeOfOneSideLeavesTheMeshErrorAsItWas) {
   lopsided.effects["extra_muscle"]["force"] = 0.3;
   ConditionSet set(lopsided, seen, all);
   SharedPrior shared;
-  shared.parameters["extra_muscle.force"] = {0.3, 0.001};
+  shared.parameters[{"extra_muscle", "force"}] = {0.3, 0.001};
   const JointFit after = fit(set, shared, nullptr, {&before.conditions});
   ASSERT_EQ(after.conditions.size(), all.size()) << after.message;
   const Refinement again(symmetric_part(lopsided, {pull}), refinement);

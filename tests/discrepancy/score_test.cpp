@@ -130,7 +130,7 @@ TEST_F(Scores, AnEstimateAtItsBoundIsOneThatAModelTakesAndHasAnInterval) {
   const Observations o = observed(truth, true);
   ConditionSet stiff(stiffer, o, fitted_conditions(o));
   SharedPrior shared;
-  shared.parameters["stiff_region.factor"] = {1, 4};
+  shared.parameters[{"stiff_region", "factor"}] = {1, 4};
   const JointFit joint = fit(stiff, shared, nullptr);
   ASSERT_EQ(joint.shared.size(), 1u) << joint.message;
   EXPECT_EQ(joint.shared[0].value, 0.05);
@@ -150,7 +150,7 @@ TEST_F(Scores, CommandsAnswerToWhatComesInAndGoesAwayAsAFitDoes) {
   ConditionSet more(airway->hypothesis->added_to(tongue), observations,
                     fitted_conditions(observations));
   SharedPrior shared;
-  shared.parameters["airway_pressure.pressure"] = {0, 200};
+  shared.parameters[{"airway_pressure", "pressure"}] = {0, 200};
   const JointFit there = fit(more, shared, &errors, {&f.conditions});
   ASSERT_TRUE(there.converged) << there.message;
   const auto apart = [](const std::vector<FittedCondition>& a,

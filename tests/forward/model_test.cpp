@@ -57,6 +57,8 @@ TEST(Workspaces, OutliveTheirModel) {
   std::optional<Model> model(test::small_model());
   Workspace ws(*model);
   const Model copy = *model;
+  // Its factor and the bulk that belongs to it stay in the workspace.
+  ASSERT_TRUE(solve_equilibrium(*model, default_parameters(*model), model->rest, ws));
   model.reset();
   EXPECT_TRUE(solve_equilibrium(copy, default_parameters(copy), copy.rest, ws));
 }

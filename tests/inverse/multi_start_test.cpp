@@ -31,6 +31,25 @@ TEST_F(MultiStart, AtlasHoldsEquilibriaOfItsCommands) {
                 1, 1e-9);
 }
 
+TEST_F(MultiStart, AWorkspaceServesCopiesOfItsModelAndNoOther) {
+  const Target t = pulled({{"GGP", 3}});
+  InferOptions once;
+  once.max_iterations = 1;
+  const Model copy = m, other(m.parts());
+  EXPECT_NO_THROW(infer_from_starts(copy, t, Prior{}, all, once, {1}));
+  EXPECT_THROW(infer_from_starts(other, t, Prior{}, all, once, {1}), std::invalid_argument);
+}
+
+TEST_F(MultiStart, AWorkspaceOutlivesItsModel) {
+  std::optional<Model> model(m.parts());
+  InferWorkspace own(*model);
+  const Model copy = *model;
+  model.reset();
+  InferOptions once;
+  once.max_iterations = 1;
+  EXPECT_NO_THROW(infer_from_starts(copy, pulled({{"GGP", 3}}), Prior{}, own, once, {1}));
+}
+
 // From rest the descent once ended with IL at its maximum instead of SL curling the tip.
 TEST_F(MultiStart, ACurledTipIsNotTakenForItsOpposite) {
   const Target t = pulled({{"SL", 5.2}, {"HG", 1.6}, {"GGP", 3.3}});

@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "forward/effects/contact_potential.hpp"
 #include "forward/effects/newton_aid.hpp"
-#include "forward/effects/potential.hpp"
 #include "forward/effects/surroundings/contact_surface.hpp"
 
 namespace genio {
@@ -15,7 +15,7 @@ namespace genio {
 /// stiffens over the first 0.05 mm (phi'' rises linearly from 0 to 1) and is linear beyond, so
 /// force and stiffness are continuous. A surface that belongs to an opening jaw moves with it.
 /// Parameter: stiffness k [Pa/m], pressure per depth.
-class Contact final : public Potential, public NewtonAid {
+class Contact final : public ContactPotential, public NewtonAid {
  public:
   Contact(std::string name, std::shared_ptr<const ContactSurface> surface, double stiffness);
 
@@ -36,11 +36,8 @@ class Contact final : public Potential, public NewtonAid {
   /// No node goes deeper than 4 mm in one step, unless it is deeper already.
   double step_limit(const Positions& x, const Positions& along, EffectParameters p) const override;
 
-  /// Signed distance of a point from the surface as it lies at rest, positive on the tongue's side
-  /// [m].
-  double distance(const Vec3& point) const { return surface_->field->value(point); }
-  /// Deepest penetration in the shape `x` beyond the overlap at rest [m], >= 0.
-  double max_penetration(const Positions& x, EffectParameters p) const;
+  double distance(const Vec3& point) const override { return surface_->field->value(point); }
+  double max_penetration(const Positions& x, EffectParameters p) const override;
 
  private:
   std::string name_;

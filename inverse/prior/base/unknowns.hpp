@@ -25,9 +25,10 @@ struct Unknown {
   std::vector<double> shares;   ///< part of the value each gets
   Kind kind = Kind::muscle;
   std::string unit = "N";
-  double lower = 0, upper = 1;  ///< of z
-  bool ratio = false;           ///< scale z is the value's logarithm
-  PoseAxis axis = PoseAxis::x;  ///< of a part of the head pose
+  double lower = 0, upper = 1;   ///< of z
+  bool ratio = false;            ///< scale z is the value's logarithm
+  PoseAxis axis = PoseAxis::x;   ///< of a part of the head pose
+  ParameterName parameter = {};  ///< the name in its two parts, of what is no muscle's
 
   double value(double z) const { return ratio ? std::exp(scale * z) : scale * z; }
   /// d value / dz where it has that value.

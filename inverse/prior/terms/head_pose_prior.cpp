@@ -7,8 +7,9 @@ namespace {
 
 constexpr double pose_range = 4;  // standard deviations that a head pose may reach
 
-Unknown unknown(const char* name, PoseAxis axis, double sd, const char* unit) {
-  return {.name = name,
+Unknown unknown(const char* part, PoseAxis axis, double sd, const char* unit) {
+  const ParameterName name{"head_pose", part};
+  return {.name = name.text(),
           .scale = pose_range * sd,
           .parameters = {},
           .shares = {},
@@ -16,7 +17,8 @@ Unknown unknown(const char* name, PoseAxis axis, double sd, const char* unit) {
           .unit = unit,
           .lower = -1,
           .upper = 1,
-          .axis = axis};
+          .axis = axis,
+          .parameter = name};
 }
 
 }  // namespace
@@ -25,9 +27,9 @@ std::vector<Unknown> HeadPoseTerm::unknowns(const Model&) const {
   if (!head_pose) return {};
   need_positive(head_pose->shift_sd, "head_pose shift");
   need_positive(head_pose->turn_sd, "head_pose turn");
-  return {unknown("head_pose.x", PoseAxis::x, head_pose->shift_sd, "m"),
-          unknown("head_pose.z", PoseAxis::z, head_pose->shift_sd, "m"),
-          unknown("head_pose.turn", PoseAxis::turn, head_pose->turn_sd, "rad")};
+  return {unknown("x", PoseAxis::x, head_pose->shift_sd, "m"),
+          unknown("z", PoseAxis::z, head_pose->shift_sd, "m"),
+          unknown("turn", PoseAxis::turn, head_pose->turn_sd, "rad")};
 }
 
 void HeadPoseTerm::add_rows(const std::vector<Unknown>& unknowns, PriorRows& rows) const {

@@ -23,7 +23,8 @@ Unknown unknown(const Model& model, const std::string& name, const ParameterPrio
             .shares = std::vector<double>(which.size(), 1.0),
             .kind = Unknown::Kind::parameter,
             .unit = info.unit,
-            .ratio = belief.ratio};
+            .ratio = belief.ratio,
+            .parameter = ParameterName::parse(name)};
   const double least = u.z_of(lower), most = u.z_of(upper), mean = u.z_of(belief.mean);
   // Bounds may be far beyond what is believed; the unit is what may be reached.
   u.scale = std::min(std::max(std::abs(least), std::abs(most)),
