@@ -28,7 +28,7 @@ TEST_F(RefinementTest, AChangeOfOneSideLeavesTheMeshErrorAsItWas) {
   ConditionSet set(lopsided, seen, all);
   SharedPrior shared;
   shared.parameters[{"extra_muscle", "force"}] = {0.3, 0.001};
-  const JointFit after = fit(set, shared, nullptr, {&before.conditions});
+  const JointFit after = fit(set, shared, nullptr, {.start = before.conditions});
   ASSERT_EQ(after.conditions.size(), all.size()) << after.message;
   const Refinement again(symmetric_part(lopsided, {pull}), refinement);
   const Corrections corrections = again.corrections(set, after).corrections;

@@ -20,7 +20,7 @@ class Scores : public test::FittedTongue {
     ASSERT_NO_FATAL_FAILURE(fit_to(truth, with_mobile_supports(model)));
     errors.matrix = residual_covariance(*set, f, influences, {}, {});
     errors.covariance.compute(errors.matrix);
-    f = fit(*set, {}, &errors, {&f.conditions});
+    f = fit(*set, {}, &errors, {.start = f.conditions});
     ASSERT_TRUE(f.converged) << f.message;
     influences = influences_of(*set, f);
     all = candidates(model, observations);
@@ -116,7 +116,7 @@ TEST_F(Scores, ASwitchPaysForNoStrength) {
 TEST_F(Scores, NoFitStartsFromConditionsThatAreMissing) {
   look_at(tongue);
   f.conditions.pop_back();
-  const JointFit again = fit(*set, {}, &errors, {&f.conditions});
+  const JointFit again = fit(*set, {}, &errors, {.start = f.conditions});
   EXPECT_FALSE(again.converged);
   EXPECT_FALSE(again.message.empty());
 }
@@ -151,7 +151,7 @@ TEST_F(Scores, CommandsAnswerToWhatComesInAndGoesAwayAsAFitDoes) {
                     fitted_conditions(observations));
   SharedPrior shared;
   shared.parameters[{"airway_pressure", "pressure"}] = {0, 200};
-  const JointFit there = fit(more, shared, &errors, {&f.conditions});
+  const JointFit there = fit(more, shared, &errors, {.start = f.conditions});
   ASSERT_TRUE(there.converged) << there.message;
   const auto apart = [](const std::vector<FittedCondition>& a,
                         const std::vector<FittedCondition>& b) {
@@ -176,9 +176,9 @@ TEST_F(Scores, AFitFromAnOpenJawHasItsJawShut) {
   const auto conditions = fitted_conditions(seen);
   ConditionSet shut(tongue, seen, conditions), opened(open, seen, conditions);
   const JointFit before = fit(shut, {}, nullptr);
-  const JointFit there = fit(opened, {}, nullptr, {&before.conditions});
+  const JointFit there = fit(opened, {}, nullptr, {.start = before.conditions});
   ASSERT_TRUE(before.converged && there.converged) << before.message << there.message;
-  const JointFit after = fit(shut, {}, nullptr, {&there.conditions});
+  const JointFit after = fit(shut, {}, nullptr, {.start = there.conditions});
   ASSERT_TRUE(after.converged) << after.message;
   EXPECT_NEAR(after.value, before.value, 1e-2 * before.value);
   EXPECT_GT(after.value, 1.5 * there.value);

@@ -32,7 +32,7 @@ const std::string short_form =
     "\"a \"\"long\"\" \xC9\x91\"\n\"TextTier\"\n\"bursts\"\n0\n2.5\n1\n0.75\n\"t\"\n";
 
 /// U+0251 is the only character of these texts beyond ASCII.
-std::string utf16(const std::string& text, bool big_first) {
+std::string in_utf16(const std::string& text, bool big_first) {
   std::string bytes = big_first ? "\xFE\xFF" : "\xFF\xFE";
   const auto put = [&](int high, int low) {
     bytes += char(big_first ? high : low);
@@ -66,8 +66,9 @@ class TextGrids : public testing::Test {
 
 TEST_F(TextGrids, AllFormsAndEncodingsSayTheSame) {
   for (const std::string& text :
-       {long_form, short_form, "\xEF\xBB\xBF" + long_form, utf16(long_form, true),
-        utf16(long_form, false), utf16(short_form, true), utf16(short_form, false).substr(2)}) {
+       {long_form, short_form, "\xEF\xBB\xBF" + long_form, in_utf16(long_form, true),
+        in_utf16(long_form, false), in_utf16(short_form, true),
+        in_utf16(short_form, false).substr(2)}) {
     const auto tiers = read(text);
     ASSERT_EQ(tiers.size(), 2u);
     EXPECT_EQ(tiers[0].name, "phones 2");
@@ -112,7 +113,9 @@ TEST_F(TextGrids, ATierThatIsNotThereIsRefusedWithThoseThatAre) {
     } catch (const InputError& e) {
       const std::string what = e.what();
       EXPECT_NE(what.find("phones 2 (2 intervals), bursts (1 points)"), std::string::npos) << what;
-      if (*name) EXPECT_NE(what.find("did you mean phones 2?"), std::string::npos) << what;
+      if (*name) {
+        EXPECT_NE(what.find("did you mean phones 2?"), std::string::npos) << what;
+      }
     }
 }
 
