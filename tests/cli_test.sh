@@ -72,7 +72,7 @@ expect 2 'give --units or --mm-per-px' "$genio" invert --target pixels.csv
 expect 2 '--facing right' "$genio" invert --target pixels.csv --mm-per-px 0.2
 expect 2 'which way the face looks' "$genio" invert --target pixels.csv --mm-per-px 0.2 --registered
 printf 'FRAME\tTIME\tPOINT\tX\tY\n1\t0\t1\tabc\t2\n' >bad.tsv
-expect 2 "bad.tsv:2: fields X, Y: 'abc'" "$genio" invert --target bad.tsv
+expect 2 "bad.tsv:2: field X: 'abc'" "$genio" invert --target bad.tsv
 printf 'muscle,mean,sd\nMH,0.3,0.01\n' >emg.csv
 expect 0 '"MH":0.' "$genio" invert --target "$example" --prior emg.csv --json
 printf 'muscle,mean,sd\nMX,0.3,0.01\n' >emg.csv
@@ -86,7 +86,7 @@ expect 1 'cannot be laid beside the model' "$genio" invert --target metres.csv
 expect 2 'expected A-B' "$genio" invert --target "$example" --frames 3-x
 expect 2 'no such frame' "$genio" invert --target "$example" --frames 7
 { printf 'sp\t1\td\tword\ta\t0\t0\t0\t0\t0\t0'; for k in $(seq 42); do printf '\t%d\t3' "$k"; done; echo; } >fan.tsv
-expect 0 'registered by the contours alone' "$genio" invert --target fan.tsv
+expect 0 'registered by the contours alone' "$genio" invert --target fan.tsv --format aaa
 # Which frames, by time and by what was said; time and words reach every output.
 printf 'frame,x_mm,z_mm,time_s\n' >words.csv
 for f in 1 2 3 4 5; do awk -F, -v f=$f 'NR>1 {printf "%d,%s,%s,%s\n", f, $3, $4, 0.1*f}' "$example" >>words.csv; done
@@ -111,7 +111,7 @@ expect 2 'whose content is not that of' "$genio" invert --target words.csv --res
 expect 2 'does nothing without --dynamic' "$genio" invert --target words.csv --knot-s 0.1
 expect 2 'does nothing without --textgrid' "$genio" invert --target words.csv --tier words
 expect 2 'not together with --palate' "$genio" invert --target fan.tsv --palate fan.tsv --registered
-expect 2 '--sensors: does not apply' "$genio" invert --target words.csv --sensors 3=tip
+expect 2 'sensors are named' "$genio" invert --target words.csv --sensors 3=tip
 expect 2 '--units: does not apply' "$genio" invert --target words.csv --units mm
 expect 2 '--noise-mm: does not apply' "$genio" invert --target "$example" --noise-mm 1
 expect 2 'does nothing without --dynamic' "$genio" forward --duration 1

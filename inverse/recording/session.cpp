@@ -14,7 +14,8 @@ namespace genio {
 namespace {
 
 constexpr double place_sd = 10e-3;  // of a marked point about its place at rest [m]
-constexpr double alike = 6;         // costs that differ by less do not tell two readings apart
+// Costs that differ by less do not tell two readings apart, by a palate and by contours alone.
+constexpr double alike = 6, alike_alone = 12;
 constexpr double far_better = 12;   // what it takes to doubt what was said
 constexpr double unusual = 15;      // cost of an articulograph whose third axis is not up
 
@@ -171,8 +172,9 @@ AlignedRecording align(const Model& model, SessionFile target,
       if (Judgement other = judged(said[k]); other.faults.empty())
         chosen = k, judgement = std::move(other);
   const Candidate& best = said[chosen];
+  const double near = palate ? alike : alike_alone;
   for (size_t k = 0; k < said.size() && judgement.faults.empty(); ++k)
-    if (k != chosen && said[k].cost < best.cost + alike && judged(said[k]).faults.empty())
+    if (k != chosen && said[k].cost < best.cost + near && judged(said[k]).faults.empty())
       throw InputError(fmt::format(
           "{}: two readings of its axes fit alike, {} and {}; say which by those options",
           target.path, described(best, content), described(said[k], content)));
