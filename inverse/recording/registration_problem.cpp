@@ -14,7 +14,7 @@ constexpr double bent_sd = 2.5e-3;  // of contours about a line that is bent to 
 constexpr size_t most_trace = 42;   // independent points of a palate trace
 constexpr double usual_scale_sd = 0.06, free_scale_sd = 1;
 constexpr double tilt_sd = 20 * std::numbers::pi / 180;
-constexpr int turns = 6;           // of lines and registration
+constexpr int turns = 6;            // of lines and registration
 constexpr double shape_frames = 3;  // whose shapes count
 
 /// Squared distances of the points from a line times `each`, and their slope in v.

@@ -16,8 +16,8 @@ namespace {
 constexpr double place_sd = 10e-3;  // of a marked point about its place at rest [m]
 // Costs that differ by less do not tell two readings apart, by a palate and by contours alone.
 constexpr double alike = 6, alike_alone = 12;
-constexpr double far_better = 12;   // what it takes to doubt what was said
-constexpr double unusual = 15;      // cost of an articulograph whose third axis is not up
+constexpr double far_better = 12;  // what it takes to doubt what was said
+constexpr double unusual = 15;     // cost of an articulograph whose third axis is not up
 
 struct Candidate {
   AxesReading reading;
