@@ -85,7 +85,7 @@ printf 'frame,point,x_mm,z_mm\n1,1,0.08,0.11\n1,2,0.09,0.12\n1,3,0.1,0.11\n' >me
 expect 1 'cannot be laid beside the model' "$genio" invert --target metres.csv
 expect 2 'expected A-B' "$genio" invert --target "$example" --frames 3-x
 expect 2 'no such frame' "$genio" invert --target "$example" --frames 7
-{ printf 'sp\t1\td\tword\ta\t0\t0\t0\t0\t0\t0'; for k in $(seq 42); do printf '\t%d\t3' "$k"; done; echo; } >fan.tsv
+{ printf 'sp\t1\t01/02/2020 10:00:00\tword\ta\t0\t0\t0\t0\t0\t0'; for k in $(seq 42); do printf '\t%d\t3' "$k"; done; echo; } >fan.tsv
 expect 0 'registered by the contours alone' "$genio" invert --target fan.tsv --format aaa
 # Which frames, by time and by what was said; time and words reach every output.
 printf 'frame,x_mm,z_mm,time_s\n' >words.csv
