@@ -3,7 +3,7 @@
 #include <csignal>
 #include <cstdio>
 
-#include "cli/command_line.hpp"
+#include "cli/command_line/command_line.hpp"
 #include "cli/subcommands/bench.hpp"
 #include "cli/subcommands/discover.hpp"
 #include "cli/subcommands/formats.hpp"

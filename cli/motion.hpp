@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/options.hpp"
+#include "cli/command_line/options.hpp"
 #include "forward/model/model.hpp"
 
 namespace genio::cli {

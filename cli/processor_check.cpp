@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "cli/command.hpp"
+#include "cli/command_line/command.hpp"
 #include "cli/compiled_for.hpp"
 
 // Compiled for the oldest processor of its kind (genio_checks_processor() in CMake), so that it can

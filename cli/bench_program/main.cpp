@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/figures/table.hpp"
-#include "cli/command.hpp"
+#include "cli/command_line/command.hpp"
 #include "cli/support.hpp"
 #include "forward/base/types.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/options.hpp"
+#include "cli/command_line/options.hpp"
 
 namespace genio::cli {
 

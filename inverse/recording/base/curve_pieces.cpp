@@ -38,9 +38,10 @@ bool retraces(const Piece& a, const Piece& b) {
   const auto along = [](const ContourPoint& p, const ContourPoint& q) {
     return p.position[0] < q.position[0];
   };
-  const auto [first, last] = std::minmax_element(a.begin(), a.end(), along);
+  const auto ends = std::minmax_element(a.begin(), a.end(), along);
+  const double first = ends.first->position[0], last = ends.second->position[0];
   const auto inside = std::count_if(b.begin(), b.end(), [&](const ContourPoint& p) {
-    return p.position[0] >= first->position[0] && p.position[0] <= last->position[0];
+    return p.position[0] >= first && p.position[0] <= last;
   });
   return double(inside) > beside * double(b.size());
 }

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "inverse/recording/format_list.hpp"
-#include "tests/inverse/formats_fixture.hpp"
+#include "tests/inverse/recording/formats_fixture.hpp"
 
 namespace genio {
 namespace {

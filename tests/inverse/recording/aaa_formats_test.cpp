@@ -1,6 +1,6 @@
 // Exports of AAA: the right spline, whole rows, and knots that are left out only in words.
 
-#include "tests/inverse/formats_fixture.hpp"
+#include "tests/inverse/recording/formats_fixture.hpp"
 
 namespace genio {
 namespace {

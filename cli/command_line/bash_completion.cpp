@@ -1,4 +1,4 @@
-#include "cli/bash_completion.hpp"
+#include "cli/command_line/bash_completion.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/command_table.hpp"
+#include "cli/command_line/command_table.hpp"
 
 namespace genio::cli {
 

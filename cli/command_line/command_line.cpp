@@ -1,13 +1,13 @@
-#include "cli/command_line.hpp"
+#include "cli/command_line/command_line.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "cli/bash_completion.hpp"
-#include "cli/command_table.hpp"
-#include "cli/man_page.hpp"
+#include "cli/command_line/bash_completion.hpp"
+#include "cli/command_line/command_table.hpp"
+#include "cli/command_line/man_page.hpp"
 #include "forward/base/nearest_name.hpp"
 #include "forward/base/types.hpp"
 

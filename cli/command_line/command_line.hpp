@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cli/options.hpp"
+#include "cli/command_line/options.hpp"
 
 namespace genio::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/man_page.hpp"
+#include "cli/command_line/man_page.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/command.hpp"
+#include "cli/command_line/command.hpp"
 
 namespace CLI {
 class App;
