@@ -121,23 +121,27 @@ std::string described(const Candidate& c, Content content) {
                      c.reading.options(content));
 }
 
-}  // namespace
-
-SessionFile read_session_file(const std::string& path, const ReadOptions& options) {
-  check_axes_options(options);
-  RawContours raw = read_raw(path, options);
+SessionFile session_file(const std::string& path, RawContours raw, const ReadOptions& options) {
   const FileAxes axes = raw.axes.value_or(FileAxes{"m", "left", "up"});
   ContourFile file =
       raw.axes ? in_metres(std::move(raw.file), axes, path, options) : std::move(raw.file);
   return {path, with_one_curve_a_frame(std::move(file), path), axes};
 }
 
+}  // namespace
+
+SessionFile read_session_file(const std::string& path, const ReadOptions& options) {
+  check_axes_options(options);
+  return session_file(path, read_raw(path, options), options);
+}
+
 SessionFile read_palate(const std::string& path, ReadOptions options, const SessionFile& target) {
   options.role = "palate";
+  check_axes_options(options);
   RawContours raw = read_raw(path, options);
   if (raw.axes && raw.axes->units.empty() && options.units.empty() && options.mm_per_px == 0)
     options.units = target.file.units;
-  return read_session_file(path, options);
+  return session_file(path, std::move(raw), options);
 }
 
 AlignedRecording align(const Model& model, SessionFile target,
@@ -151,8 +155,8 @@ AlignedRecording align(const Model& model, SessionFile target,
   std::vector<Candidate> said, others;
   for (const AxesReading& reading : all_readings(target.file)) {
     const bool agreed = agrees(reading, target.axes, options, content);
-    if (!agreed && !in_plane(reading, extent)) continue;
-    if (agreed && options.axes.empty() && !in_plane(reading, extent)) continue;
+    const bool asked = agreed && !options.axes.empty();
+    if (!asked && !in_plane(reading, extent)) continue;
     (agreed ? said : others).push_back(candidate(model, reach, target.file, trace, reading));
   }
   const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
