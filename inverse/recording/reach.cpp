@@ -2,35 +2,65 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include "forward/statics/sensitivity.hpp"
+#include "forward/model/mirror.hpp"
+#include "forward/statics/equilibrium.hpp"
 
 namespace genio {
 namespace {
 
 constexpr int line_points = 60;
 constexpr double usual_part = 0.2;  // of a muscle's maximum
+constexpr double settled = 1e-4;    // of a residual: modes are of other postures anyway
+// No muscle moves the line farther in a usual posture [m], root mean square: recordings of speech
+// lie so far from their mean.
+constexpr double posture_sd = 5e-3;
 constexpr Eigen::Index most_modes = 6;
-constexpr int rounds = 4;
 
-/// Displacements of the line, a column a muscle at its usual force; empty where the model does not
-/// rest in a stable equilibrium.
+/// Names of the model's muscles, left and right as one.
+std::vector<std::string> muscle_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const auto& muscle : model.muscles)
+    if (const std::string name = bilateral_name(muscle.name);
+        std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  return names;
+}
+
+double greatest_force(const Model& model, const std::string& name) {
+  double sum = 0;
+  for (int k : command_parameters(model, name)) sum += model.parameters[size_t(k)].info.upper;
+  return sum;
+}
+
+/// Displacements of the line, a column a muscle that acts alone; empty where the model does not
+/// rest in equilibrium. A derivative at rest would overstate them tenfold, for tissue stiffens.
 Matrix moves(const Model& model, const TongueLine& line) {
-  Workspace ws(model);
-  const Equilibrium rest = solve_equilibrium(model, default_parameters(model), model.rest, ws);
-  std::vector<int> commands;
-  for (size_t k = 0; k < model.parameters.size(); ++k)
-    if (model.parameters[k].is_command) commands.push_back(int(k));
-  if (!rest || commands.empty()) return {};
-  const Matrix by_force = sensitivity(model, rest, commands, ws);
-  Matrix result(by_force.size() > 0 ? 2 * line_points : 0, by_force.cols());
-  for (Eigen::Index c = 0; c < by_force.cols() && result.rows() > 0; ++c) {
-    const double force = usual_part * model.parameters[size_t(commands[size_t(c)])].info.upper;
-    const auto moved = line.sample(Positions(rest.x + force * by_force.col(c)), line_points);
-    const auto from = line.sample(rest.x, line_points);
+  const auto mirror = mirror_of(model);
+  const Model& solved = mirror ? mirror->half : model;
+  Workspace ws(solved);
+  const Parameters passive = default_parameters(solved);
+  const Equilibrium rest = solve_equilibrium(solved, passive, solved.rest, ws);
+  if (!rest) return {};
+  const auto sampled = [&](const Positions& x) {
+    return line.sample(mirror ? Positions(mirror->whole(x)) : x, line_points);
+  };
+  const auto from = sampled(rest.x);
+  Matrix result(2 * line_points, 0);
+  for (const std::string& name : muscle_names(solved)) {
+    Parameters p = passive;
+    set_command(solved, name, usual_part * greatest_force(solved, name), p);
+    const Equilibrium pulled = solve_equilibrium(solved, p, rest.x, ws, {.tolerance = settled});
+    if (!pulled) continue;
+    const auto moved = sampled(pulled.x);
+    Vector move(2 * line_points);
     for (int i = 0; i < line_points; ++i)
-      result.block<2, 1>(2 * i, c) = moved[size_t(i)] - from[size_t(i)];
+      move.segment<2>(2 * i) = moved[size_t(i)] - from[size_t(i)];
+    move /= std::max(1.0, move.norm() / (posture_sd * std::sqrt(double(line_points))));
+    result.conservativeResize(Eigen::NoChange, result.cols() + 1);
+    result.col(result.cols() - 1) = move;
   }
   return result;
 }
@@ -63,36 +93,6 @@ LineFoot foot_on(const std::vector<Vec2>& line, const Vec2& q) {
     if (off.squaredNorm() < best) best = off.squaredNorm(), result = {i, t, off};
   }
   return result;
-}
-
-ReachLine line_near(const TongueReach& reach, const std::vector<Vec2>& points, double sd) {
-  const auto n = Eigen::Index(reach.modes.size());
-  ReachLine line{reach.rest, 0};
-  Vector a = Vector::Zero(n);
-  for (int round = 0; round < rounds && n > 0; ++round) {
-    Matrix precision = Matrix::Identity(n, n);
-    Vector right = Vector::Zero(n);
-    for (const Vec2& q : points) {
-      const LineFoot foot = foot_on(line.points, q);
-      const Vec2 along = line.points[foot.segment + 1] - line.points[foot.segment];
-      const Vec2 normal = Vec2(-along[1], along[0]).normalized();
-      Vector row(n);
-      for (Eigen::Index k = 0; k < n; ++k) {
-        const auto& mode = reach.modes[size_t(k)];
-        row[k] =
-            normal.dot((1 - foot.part) * mode[foot.segment] + foot.part * mode[foot.segment + 1]);
-      }
-      precision += row * row.transpose() / (sd * sd);
-      right += row * (normal.dot(foot.offset) + row.dot(a)) / (sd * sd);
-    }
-    a = precision.llt().solve(right);
-    for (size_t i = 0; i < line.points.size(); ++i) {
-      line.points[i] = reach.rest[i];
-      for (Eigen::Index k = 0; k < n; ++k) line.points[i] += a[k] * reach.modes[size_t(k)][i];
-    }
-  }
-  line.strain = a.squaredNorm();
-  return line;
 }
 
 }  // namespace genio

@@ -4,17 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "inverse/recording/bent_lines.hpp"
 #include "inverse/recording/registration_problem.hpp"
 
 namespace genio {
 namespace {
 
-constexpr double rest_sd = 5e-3;  // of contours about the line at rest [m]
-// Independent points of all contours. Without a palate a recording's mean shape off the rest shape
-// looks like a head that is off, so that they say less.
-constexpr double contours_weight = 60, alone_weight = 6;
-constexpr size_t most_optima = 3;
-constexpr size_t enough_frames = 20, enough_points = 24, enough_trace = 200;
+// Without a palate a recording's mean shape off the rest shape looks like a head that is off, so
+// that the contours say less.
+constexpr double alone_weight = 6;
+constexpr size_t enough_frames = 20, enough_points = 24, enough_trace = 60;
 
 /// At most `count` items spread evenly.
 template <class T>
@@ -30,65 +29,62 @@ RegistrationProblem problem_of(const TongueReach& reach,
   RegistrationProblem problem;
   for (const auto& contour : thin(contours, enough_frames))
     problem.contours.push_back(thin(contour, enough_points));
-  problem.lines.assign(problem.contours.size(), reach.rest);
-  problem.line_sd = rest_sd;
+  problem.rest = reach.rest;
   return problem;
 }
 
-struct Optimum {
-  double cost;
-  std::vector<double> v;
-};
-
-/// Optima about the line at rest from several starts, the cheapest first, each once.
-std::vector<Optimum> optima_about_rest(const RegistrationProblem& problem,
-                                       const std::vector<Vec2>& middles) {
-  std::vector<Optimum> all, each;
-  for (const Vec2& start : middles)
-    for (double tilt : {-0.35, 0.0, 0.35}) {
-      std::vector<double> v = {tilt, 0, start[0], start[1]};
-      const double cost = minimise(problem, v);
-      all.push_back({cost, std::move(v)});
-    }
-  std::sort(all.begin(), all.end(),
-            [](const Optimum& a, const Optimum& b) { return a.cost < b.cost; });
-  for (const Optimum& o : all)
-    if (std::none_of(each.begin(), each.end(), [&](const Optimum& known) {
-          return std::abs(known.v[0] - o.v[0]) < 0.03 &&
-                 std::hypot(known.v[2] - o.v[2], known.v[3] - o.v[3]) < 2e-3;
-        }))
-      each.push_back(o);
-  return each;
+/// Places from which an optimum is looked for: of the middle, each at several tilts.
+std::vector<std::vector<double>> starts_at(const std::vector<Vec2>& middles) {
+  std::vector<std::vector<double>> starts;
+  for (const Vec2& middle : middles)
+    for (double tilt : {-0.35, 0.0, 0.35}) starts.push_back({tilt, 0, middle[0], middle[1]});
+  return starts;
 }
 
-/// The best of the optima from several starts about the line at rest, then with bent lines.
-Registration best_of(const TongueReach& reach, const RegistrationProblem& straight,
-                     const std::vector<Vec2>& middles) {
-  std::vector<Optimum> optima = optima_about_rest(straight, middles);
-  if (optima.size() > most_optima) optima.resize(most_optima);
-  Optimum best{std::numeric_limits<double>::infinity(), {}};
-  RegistrationProblem problem;
-  for (const Optimum& o : optima) {
-    RegistrationProblem bent = straight;
-    std::vector<double> v = o.v;
-    if (const double cost = minimise_with_reach(bent, reach, v); cost < best.cost)
-      best = {cost, v}, problem = std::move(bent);
+bool same_place(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::abs(a[0] - b[0]) < 0.03 && std::hypot(a[2] - b[2], a[3] - b[3]) < 2e-3;
+}
+
+/// The best of the optima with bent lines: from each start as it is, and from the optimum near it
+/// about the line at rest.
+BentFit best_fit(const RegistrationProblem& problem, const TongueReach& reach,
+                 const std::vector<Vec2>& middles) {
+  std::vector<std::vector<double>> starts = starts_at(middles), each;
+  for (std::vector<double> start : starts_at(middles)) {
+    minimise(problem, start);
+    starts.push_back(std::move(start));
   }
+  BentFit best;
+  best.cost = std::numeric_limits<double>::infinity();
+  for (const auto& start : starts) {
+    if (std::any_of(each.begin(), each.end(),
+                    [&](const auto& known) { return same_place(known, start); }))
+      continue;
+    each.push_back(start);
+    if (BentFit fit = fit_bent_lines(problem, reach, start); fit.cost < best.cost)
+      best = std::move(fit);
+  }
+  return best;
+}
+
+/// The registration of the problem's best optimum.
+Registration best_of(const TongueReach& reach, const RegistrationProblem& problem,
+                     const std::vector<Vec2>& middles) {
+  const BentFit best = best_fit(problem, reach, middles);
   Registration result{.transform = problem.transform(best.v)};
   result.cost = best.cost;
-  const Eigen::Matrix4d spread = covariance(problem, best.v);
-  const auto sd = [&](int k) { return std::sqrt(std::max(0.0, spread(k, k))); };
+  const auto sd = [&](int k) { return std::sqrt(std::max(0.0, best.spread(k, k))); };
   result.shift_sd = {sd(2), sd(3)}, result.tilt_sd = sd(0);
   std::vector<double> off;
   for (size_t k = 0; k < problem.contours.size(); ++k)
-    off.push_back(rms_distance(result.transform, problem.contours[k], problem.lines[k]));
+    off.push_back(rms_distance(result.transform, problem.contours[k], best.lines[k]));
   std::nth_element(off.begin(), off.begin() + long(off.size() / 2), off.end());
   if (!off.empty()) result.off_reach = off[off.size() / 2];
   // Bent lines would follow a wrong size: it is looked for about those at rest.
-  RegistrationProblem of_any_size = straight;
+  RegistrationProblem of_any_size = problem;
   of_any_size.free = true;
   std::vector<double> v = best.v, none;
-  minimise(straight, v);
+  minimise(problem, v);
   result.free_gain = of_any_size.cost(v, none);
   result.free_gain -= minimise(of_any_size, v);
   result.free_scale = std::exp(v[1]);

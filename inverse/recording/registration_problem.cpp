@@ -1,21 +1,14 @@
 #include "inverse/recording/registration_problem.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <nlopt.hpp>
-#include <numbers>
 
 namespace genio {
 namespace {
 
-constexpr double palate_sd = 2e-3;  // [m]
-constexpr double bent_sd = 2.5e-3;  // of contours about a line that is bent to them [m]
-constexpr size_t most_trace = 42;   // independent points of a palate trace
-constexpr double usual_scale_sd = 0.06, free_scale_sd = 1;
-constexpr double tilt_sd = 20 * std::numbers::pi / 180;
-constexpr int turns = 6;            // of lines and registration
-constexpr double shape_frames = 3;  // whose shapes count
+constexpr double rest_sd = 5e-3;  // of contours about the line at rest [m]
+constexpr double free_scale_sd = 1;
 
 /// Squared distances of the points from a line times `each`, and their slope in v.
 double misfit(const std::vector<Vec2>& points, const std::vector<Vec2>& line, double each,
@@ -38,6 +31,10 @@ Similarity RegistrationProblem::transform(const std::vector<double>& v) const {
   return s;
 }
 
+double belief_cost(const std::vector<double>& v) {
+  return v[0] * v[0] / (tilt_sd * tilt_sd) + v[1] * v[1] / (usual_scale_sd * usual_scale_sd);
+}
+
 double RegistrationProblem::cost(const std::vector<double>& v,
                                  std::vector<double>& gradient) const {
   const Similarity s = transform(v);
@@ -50,17 +47,15 @@ double RegistrationProblem::cost(const std::vector<double>& v,
   size_t points = 0;
   for (const auto& contour : contours) points += contour.size();
   for (size_t k = 0; k < contours.size(); ++k)
-    sum += misfit(contours[k], lines[k], weight / double(points) / (line_sd * line_sd), s, middle,
-                  slope);
-  if (free) {
-    // Else what fits badly would shrink: distances count in the device's own lengths.
-    slope[1] -= 2 * sum;
-    const double by = std::exp(-2 * v[1]);
-    sum *= by, slope *= by;
-  }
+    sum +=
+        misfit(contours[k], rest, weight / double(points) / (rest_sd * rest_sd), s, middle, slope);
+  // Distances count in the device's own lengths, else what fits badly would shrink.
+  slope[1] -= 2 * sum;
+  const double by = std::exp(-2 * v[1]);
+  sum *= by, slope *= by;
   const double scale_sd = free ? free_scale_sd : usual_scale_sd;
   slope[0] += 2 * v[0] / (tilt_sd * tilt_sd), slope[1] += 2 * v[1] / (scale_sd * scale_sd);
-  sum += v[0] * v[0] / (tilt_sd * tilt_sd) + v[1] * v[1] / (scale_sd * scale_sd) + strain;
+  sum += v[0] * v[0] / (tilt_sd * tilt_sd) + v[1] * v[1] / (scale_sd * scale_sd);
   if (!gradient.empty()) Eigen::Vector4d::Map(gradient.data()) = slope;
   return sum;
 }
@@ -82,38 +77,6 @@ double minimise(const RegistrationProblem& problem, std::vector<double>& v) {
     value = problem.cost(v, none);
   }
   return value;
-}
-
-double minimise_with_reach(RegistrationProblem& problem, const TongueReach& reach,
-                           std::vector<double>& v) {
-  problem.line_sd = bent_sd;
-  double value = 0;
-  for (int turn = 0; turn < turns; ++turn) {
-    const Similarity s = problem.transform(v);
-    problem.strain = 0;
-    for (size_t k = 0; k < problem.contours.size(); ++k) {
-      std::vector<Vec2> moved;
-      for (const Vec2& q : problem.contours[k]) moved.push_back(s(q));
-      ReachLine line = line_near(reach, moved, bent_sd);
-      problem.lines[k] = std::move(line.points), problem.strain += line.strain;
-    }
-    const auto frames = double(problem.contours.size());
-    if (frames > shape_frames) problem.strain *= shape_frames / frames;
-    value = minimise(problem, v);
-  }
-  return value;
-}
-
-Eigen::Matrix4d covariance(const RegistrationProblem& problem, const std::vector<double>& v) {
-  constexpr double step[] = {1e-3, 1e-3, 1e-5, 1e-5};
-  Eigen::Matrix4d hessian;
-  for (int k = 0; k < 4; ++k) {
-    std::vector<double> up = v, down = v, high(4), low(4);
-    up[size_t(k)] += step[k], down[size_t(k)] -= step[k];
-    problem.cost(up, high), problem.cost(down, low);
-    for (int i = 0; i < 4; ++i) hessian(i, k) = (high[size_t(i)] - low[size_t(i)]) / (2 * step[k]);
-  }
-  return 2 * (0.5 * (hessian + hessian.transpose())).ldlt().solve(Eigen::Matrix4d::Identity());
 }
 
 }  // namespace genio

@@ -57,7 +57,7 @@ std::string text_of(const RegistrationRecord& r) {
 
 /// What tells that the model is another speaker's; empty where it may be this one's.
 std::string of_another(const RegistrationRecord& r) {
-  constexpr double other_palate = 0.6e-3, other_size = 0.15;  // [m], of the logarithm
+  constexpr double other_palate = 0.4e-3, other_size = 0.15;  // [m], of the logarithm
   const bool size = std::abs(std::log(r.judgement.scale)) > other_size;
   if (!size && !(r.by_palate && r.judgement.palate_rms > other_palate)) return {};
   return "the palate's shape or size is not the model's: forces are those of the model's anatomy, "
