@@ -77,6 +77,8 @@ Question question(const InvertOptions& o, double noise) {
           {"target", asked_file(m.target)},
           {"palate", asked_file(m.palate)},
           {"palate_sensor", m.palate_sensor},
+          {"bite_plane", asked_file(m.bite_plane)},
+          {"bite_plane_sensors", m.bite_plane_sensors},
           {"textgrid", asked_file(m.choice.textgrid)},
           {"tier", m.choice.tier},
           {"frames", range_of(o)},

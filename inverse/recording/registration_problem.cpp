@@ -59,8 +59,10 @@ double RegistrationProblem::cost(const std::vector<double>& v,
     sum *= by, slope *= by;
   }
   const double scale_sd = free ? free_scale_sd : usual_scale_sd;
-  slope[0] += 2 * v[0] / (tilt_sd * tilt_sd), slope[1] += 2 * v[1] / (scale_sd * scale_sd);
-  sum += v[0] * v[0] / (tilt_sd * tilt_sd) + v[1] * v[1] / (scale_sd * scale_sd) + strain;
+  const double turn = v[0] + (bite_plane ? bite_plane->tilt : 0),
+               turn_sd = bite_plane ? bite_plane->sd : tilt_sd;
+  slope[0] += 2 * turn / (turn_sd * turn_sd), slope[1] += 2 * v[1] / (scale_sd * scale_sd);
+  sum += turn * turn / (turn_sd * turn_sd) + v[1] * v[1] / (scale_sd * scale_sd) + strain;
   if (!gradient.empty()) Eigen::Vector4d::Map(gradient.data()) = slope;
   return sum;
 }
