@@ -78,6 +78,7 @@ Question question(const InvertOptions& o, double noise) {
           {"palate", asked_file(m.palate)},
           {"palate_sensor", m.palate_sensor},
           {"bite_plane", asked_file(m.bite_plane)},
+          {"hyoid", m.hyoid},
           {"bite_plane_sensors", m.bite_plane_sensors},
           {"textgrid", asked_file(m.choice.textgrid)},
           {"tier", m.choice.tier},

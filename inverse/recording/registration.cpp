@@ -27,9 +27,9 @@ std::vector<T> thin(const std::vector<T>& all, size_t count) {
 
 RegistrationProblem problem_of(const TongueReach& reach,
                                const std::vector<std::vector<Vec2>>& contours,
-                               const std::optional<BitePlane>& bite_plane) {
+                               const HeadMarks& marks) {
   RegistrationProblem problem;
-  problem.bite_plane = bite_plane;
+  problem.marks = marks;
   for (const auto& contour : thin(contours, enough_frames))
     problem.contours.push_back(thin(contour, enough_points));
   problem.lines.assign(problem.contours.size(), reach.rest);
@@ -46,7 +46,7 @@ struct Optimum {
 std::vector<Optimum> optima_about_rest(const RegistrationProblem& problem,
                                        const std::vector<Vec2>& middles) {
   std::vector<Optimum> all, each;
-  const double level = problem.bite_plane ? -problem.bite_plane->tilt : 0;
+  const double level = problem.marks.bite_plane ? -problem.marks.bite_plane->tilt : 0;
   for (const Vec2& start : middles)
     for (double tilt : {-0.35, 0.0, 0.35}) {
       std::vector<double> v = {level + tilt, 0, start[0], start[1]};
@@ -115,14 +115,14 @@ double rms_distance(const Similarity& s, const std::vector<Vec2>& points,
 Registration register_by_palate(const Model& model, const TongueReach& reach,
                                 const std::vector<Vec2>& palate_trace,
                                 const std::vector<std::vector<Vec2>>& contours,
-                                const std::optional<BitePlane>& bite_plane) {
+                                const HeadMarks& marks) {
   if (!model.palate)
     throw InputError("registration needs a palate; the model file has none in [surfaces]");
   if (palate_trace.size() < 5)
     throw InputError("registration needs a palate trace of at least 5 points");
   const auto cut = midsagittal_cut(*model.palate);
   if (cut.empty()) throw InputError("the model's palate does not cross the midsagittal plane");
-  RegistrationProblem problem = problem_of(reach, contours, bite_plane);
+  RegistrationProblem problem = problem_of(reach, contours, marks);
   problem.palate.assign(cut.front().begin(), cut.front().end());
   problem.trace = thin(palate_trace, enough_trace);
   problem.weight = contours_weight;
@@ -137,8 +137,8 @@ Registration register_by_palate(const Model& model, const TongueReach& reach,
 
 Registration register_by_contours(const TongueReach& reach,
                                   const std::vector<std::vector<Vec2>>& contours,
-                                  const std::optional<BitePlane>& bite_plane) {
-  RegistrationProblem problem = problem_of(reach, contours, bite_plane);
+                                  const HeadMarks& marks) {
+  RegistrationProblem problem = problem_of(reach, contours, marks);
   problem.weight = alone_weight;
   size_t count = 0;
   for (const auto& c : contours) {

@@ -17,6 +17,18 @@ struct Similarity {
   Vec2 operator()(const Vec2& q) const;
 };
 
+/// A point of the recording that is one of the model's within `sd`, lengths in metres.
+struct KnownPlace {
+  Vec2 in_recording, in_model;
+  double sd = 0;
+};
+
+/// What beside palate and contours tells where the head was.
+struct HeadMarks {
+  std::optional<BitePlane> bite_plane = {};
+  std::optional<KnownPlace> hyoid = {};
+};
+
 struct Registration {
   Similarity transform;
   double palate_rms = 0;  ///< of the palate trace from the model's palate, after fitting [m]
@@ -38,17 +50,17 @@ double rms_distance(const Similarity& s, const std::vector<Vec2>& points,
 /// registrations fit the palate equally well (RMS 1 mm). So scale and tilt have weak priors (6 %
 /// and 20 degrees), and the contours of all frames together decide, as much as 60 points: they lie
 /// about the rest shape (5 mm), then about lines that the reach bends to them (2.5 mm). A bite
-/// plane tells the tilt in place of its prior. Throws InputError when the model has no palate or
-/// the trace fewer than 5 points.
+/// plane tells the tilt in place of its prior, and a hyoid a place within its spread. Throws
+/// InputError when the model has no palate or the trace fewer than 5 points.
 Registration register_by_palate(const Model& model, const TongueReach& reach,
                                 const std::vector<Vec2>& palate_trace,
                                 const std::vector<std::vector<Vec2>>& contours,
-                                const std::optional<BitePlane>& bite_plane = {});
+                                const HeadMarks& marks = {});
 
 /// The same without a palate: the contours alone lie about the rest shape. Scale and tilt are known
 /// by their priors and little else. Throws InputError for fewer than 5 points.
 Registration register_by_contours(const TongueReach& reach,
                                   const std::vector<std::vector<Vec2>>& contours,
-                                  const std::optional<BitePlane>& bite_plane = {});
+                                  const HeadMarks& marks = {});
 
 }  // namespace genio

@@ -52,6 +52,12 @@ double RegistrationProblem::cost(const std::vector<double>& v,
   for (size_t k = 0; k < contours.size(); ++k)
     sum += misfit(contours[k], lines[k], weight / double(points) / (line_sd * line_sd), s, middle,
                   slope);
+  if (marks.hyoid) {
+    const Vec2 at = s(marks.hyoid->in_recording), arm = at - middle,
+               off = (at - marks.hyoid->in_model) / (marks.hyoid->sd * marks.hyoid->sd);
+    sum += off.dot(at - marks.hyoid->in_model);
+    slope += 2 * Eigen::Vector4d(off[1] * arm[0] - off[0] * arm[1], off.dot(arm), off[0], off[1]);
+  }
   if (free) {
     // Else what fits badly would shrink: distances count in the device's own lengths.
     slope[1] -= 2 * sum;
@@ -59,8 +65,8 @@ double RegistrationProblem::cost(const std::vector<double>& v,
     sum *= by, slope *= by;
   }
   const double scale_sd = free ? free_scale_sd : usual_scale_sd;
-  const double turn = v[0] + (bite_plane ? bite_plane->tilt : 0),
-               turn_sd = bite_plane ? bite_plane->sd : tilt_sd;
+  const double turn = v[0] + (marks.bite_plane ? marks.bite_plane->tilt : 0),
+               turn_sd = marks.bite_plane ? marks.bite_plane->sd : tilt_sd;
   slope[0] += 2 * turn / (turn_sd * turn_sd), slope[1] += 2 * v[1] / (scale_sd * scale_sd);
   sum += turn * turn / (turn_sd * turn_sd) + v[1] * v[1] / (scale_sd * scale_sd) + strain;
   if (!gradient.empty()) Eigen::Vector4d::Map(gradient.data()) = slope;

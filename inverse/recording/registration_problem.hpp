@@ -16,7 +16,7 @@ struct RegistrationProblem {
   double line_sd = 0;                    ///< how far a contour lies from its line
   double weight = 0;                     ///< independent points of all contours
   bool free = false;                     ///< nothing is believed of the scale
-  std::optional<BitePlane> bite_plane;   ///< horizontal in the model
+  HeadMarks marks;                       ///< a bite plane is horizontal in the model
   Vec2 centre = Vec2::Zero();            ///< rotation and scale act about it
 
   Similarity transform(const std::vector<double>& v) const;

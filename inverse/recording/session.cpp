@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "inverse/recording/base/curve_pieces.hpp"
+#include "inverse/recording/base/table_text.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/sensor_place.hpp"
 
@@ -18,6 +19,9 @@ constexpr double place_sd = 10e-3;  // of a marked point about its place at rest
 constexpr double alike = 6, alike_alone = 12;
 constexpr double far_better = 12;                        // what it takes to doubt what was said
 constexpr double oblique = 18 * std::numbers::pi / 180;  // of a bite plane that is doubted
+// Of a hyoid about the model's [m]: over 41 speakers it lies within 7 and 5 mm of its mean place
+// behind and below the incisors; a jaw that opens moves it by up to 7.
+constexpr double hyoid_sd = 9e-3;
 constexpr double unusual = 15;  // cost of an articulograph whose third axis is not up
 
 struct Candidate {
@@ -25,13 +29,13 @@ struct Candidate {
   bool said = false;  ///< agrees with what the caller and, of curves, the format say
   Registration registration = {};
   double cost = 0;  ///< of the registration and of marked points about their places
-  std::optional<double> bite_plane = {};  ///< its tilt against the model's [rad]
+  std::optional<double> bite_plane = {}, hyoid = {};  ///< as of AlignedRecording
 };
 
 /// What a session's files hold; those beside the target may be absent.
 struct Traces {
   const ContourFile *target, *palate;
-  const SessionFile* bite_plane;
+  const SessionMarks* marks;
 };
 
 /// All that a device can have. Sensors in a plane have two coordinates.
@@ -108,10 +112,27 @@ std::vector<Vec2> trace_of(const ContourFile& palate) {
   return trace;
 }
 
-/// Of the bite plane as a reading has it; none where there is no file.
-std::optional<BitePlane> bite_plane_as(const SessionFile* plane, const AxesReading& reading) {
-  if (!plane) return {};
-  return bite_plane_of(trace_of(turned(plane->file, reading)), plane->path);
+/// Where a model has its hyoid: the middle of the bone's cut.
+Vec2 hyoid_of(const Model& model) {
+  if (!model.hyoid) throw InputError("--hyoid: the model file has no hyoid in [surfaces]");
+  Vec2 middle = Vec2::Zero();
+  double count = 0;
+  for (const auto& line : midsagittal_cut(*model.hyoid))
+    for (const Vec2& q : line) middle += q, ++count;
+  if (count == 0)
+    throw InputError("--hyoid: the model's hyoid does not cross the midsagittal plane");
+  return middle / count;
+}
+
+HeadMarks marks_as(const Model& model, const SessionMarks& session, const AxesReading& reading) {
+  HeadMarks marks;
+  if (session.bite_plane)
+    marks.bite_plane = bite_plane_of(trace_of(turned(session.bite_plane->file, reading)),
+                                     session.bite_plane->path);
+  if (session.hyoid)
+    marks.hyoid = KnownPlace{trace_of(turned(session.hyoid->file, reading)).front(),
+                             hyoid_of(model), hyoid_sd};
+  return marks;
 }
 
 Candidate candidate(const Model& model, const TongueReach& reach, const Traces& session,
@@ -120,12 +141,14 @@ Candidate candidate(const Model& model, const TongueReach& reach, const Traces& 
   const ContourFile* palate = session.palate;
   const ContourFile file = turned(target, reading);
   const auto contours = midsagittal_points(file);
-  const auto plane = bite_plane_as(session.bite_plane, reading);
+  const HeadMarks marks = marks_as(model, *session.marks, reading);
   Candidate c{.reading = reading};
   c.registration =
-      palate ? register_by_palate(model, reach, trace_of(turned(*palate, reading)), contours, plane)
-             : register_by_contours(reach, contours, plane);
-  if (plane) c.bite_plane = c.registration.transform.angle + plane->tilt;
+      palate ? register_by_palate(model, reach, trace_of(turned(*palate, reading)), contours, marks)
+             : register_by_contours(reach, contours, marks);
+  if (marks.bite_plane) c.bite_plane = c.registration.transform.angle + marks.bite_plane->tilt;
+  if (marks.hyoid)
+    c.hyoid = (c.registration.transform(marks.hyoid->in_recording) - marks.hyoid->in_model).norm();
   c.cost = c.registration.cost + place_cost(model, file, c.registration.transform);
   if (target.format.content == Content::sensors && !(reading.up == 2 && reading.up_grows))
     c.cost += unusual;
@@ -176,14 +199,34 @@ SessionFile read_bite_plane(const std::string& path, ReadOptions options,
   return read_trace(path, std::move(options), target);
 }
 
+SessionFile hyoid_at(const std::string& text, const ReadOptions& options,
+                     const SessionFile& target) {
+  const auto comma = text.find(',');
+  double x = 0, y = 0;
+  if (comma == std::string::npos || !parse_number(text.substr(0, comma), x) ||
+      !parse_number(text.substr(comma + 1), y))
+    throw InputError(
+        fmt::format("--hyoid {}: expected X,Y, two numbers as the contours have", text));
+  if (target.file.format.content != Content::curves)
+    throw InputError(fmt::format("--hyoid: does not apply; {} holds no curves", target.path));
+  ContourFile file;
+  file.format = target.file.format;
+  ContourPoint& point = file.frames.emplace_back().points.emplace_back();
+  point.position = {x, not_given, y}, point.kind = "hyoid";
+  ReadOptions same_units = options;
+  same_units.units = target.file.units;
+  const std::string name = "--hyoid " + text;
+  return {name, in_metres(std::move(file), target.axes, name, same_units), target.axes};
+}
+
 AlignedRecording align(const Model& model, SessionFile target,
                        const std::optional<SessionFile>& palate, const ReadOptions& options,
-                       const std::optional<SessionFile>& bite_plane) {
+                       const SessionMarks& marks) {
   const Content content = target.file.format.content;
   const ContourFile* trace = palate ? &palate->file : nullptr;
   if (trace && trace_of(*trace).empty())
     throw InputError(palate->path + ": no palate point has a value");
-  const Traces session{&target.file, trace, bite_plane ? &*bite_plane : nullptr};
+  const Traces session{&target.file, trace, &marks};
   const Vec3 extent = spread(target.file, trace);
   const TongueReach reach = reach_of(model);
   std::vector<Candidate> said, others;
@@ -216,8 +259,12 @@ AlignedRecording align(const Model& model, SessionFile target,
       throw InputError(fmt::format(
           "{}: two readings of its axes fit alike, {} and {}; say which by those options",
           target.path, described(best, content), described(said[k], content)));
-  AlignedRecording result{turned(std::move(target.file), best.reading), best.registration,
-                          best.reading, judgement, best.bite_plane};
+  AlignedRecording result{turned(std::move(target.file), best.reading),
+                          best.registration,
+                          best.reading,
+                          judgement,
+                          best.bite_plane,
+                          best.hyoid};
   if (result.bite_plane && std::abs(*result.bite_plane) > oblique)
     result.judgement.faults.push_back(fmt::format(
         "its bite plane is tilted by {:.0f} degrees against the model's occlusal plane, once it is "

@@ -37,7 +37,8 @@ AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredO
                          const ReadOptions& read) {
   ReadOptions beside = read;
   beside.sensors.clear(), beside.columns.clear(), beside.points.clear(), beside.spline.clear();
-  std::optional<SessionFile> palate, bite_plane;
+  std::optional<SessionFile> palate;
+  SessionMarks marks;
   if (!o.palate.empty()) {
     ReadOptions options = beside;
     options.spline = o.palate_spline;
@@ -48,9 +49,10 @@ AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredO
   if (!o.bite_plane.empty()) {
     ReadOptions options = beside;
     for (const std::string& sensor : o.bite_plane_sensors) options.sensors[sensor] = "bite plane";
-    bite_plane = read_bite_plane(o.bite_plane, options, target);
+    marks.bite_plane = read_bite_plane(o.bite_plane, options, target);
   }
-  return align(model, std::move(target), palate, read, bite_plane);
+  if (!o.hyoid.empty()) marks.hyoid = hyoid_at(o.hyoid, read, target);
+  return align(model, std::move(target), palate, read, marks);
 }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -63,9 +65,11 @@ std::string text_of(const RegistrationRecord& r) {
       r.bite_plane
           ? fmt::format(", bite plane {:.1f} degrees off the model's", degrees(*r.bite_plane))
           : "";
+  const std::string hyoid =
+      r.hyoid ? fmt::format(", hyoid {:.1f} mm from the model's", 1e3 * *r.hyoid) : "";
   return fmt::format(
-      "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}{}; contours {:.1f} mm from rest",
-      r.by_palate ? "palate" : "contours alone", j.scale, degrees(j.tilt), palate, plane,
+      "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}{}{}; contours {:.1f} mm from rest",
+      r.by_palate ? "palate" : "contours alone", j.scale, degrees(j.tilt), palate, plane, hyoid,
       1e3 * j.from_rest);
 }
 
@@ -99,7 +103,8 @@ Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOpt
                     .units = a.file.units,
                     .axes = a.reading.text(a.file.format.content),
                     .by_palate = !o.palate.empty(),
-                    .bite_plane = a.bite_plane};
+                    .bite_plane = a.bite_plane,
+                    .hyoid = a.hyoid};
   a.file.remarks.push_back(text_of(m.registration));
   if (const std::string other = of_another(m.registration); !other.empty())
     a.file.remarks.push_back(other);

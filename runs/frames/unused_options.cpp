@@ -32,6 +32,7 @@ void refuse_axes(const MeasuredOptions& o, const FormatTraits& format) {
   if (!o.read.axes.empty()) refuse("--axes", why);
   if (!o.palate.empty()) refuse("--palate", why + " already");
   if (!o.bite_plane.empty()) refuse("--bite-plane", why + " already");
+  if (!o.hyoid.empty()) refuse("--hyoid", why + " already");
 }
 
 }  // namespace
@@ -45,6 +46,8 @@ void refuse_unused(const MeasuredOptions& o, const FormatTraits& format, bool re
     refuse("--bite-plane-sensors", "they are sensors of the recording that --bite-plane gives");
   if (!o.bite_plane.empty() && o.registered)
     refuse("--bite-plane", "--registered says that the file is in the model's frame already");
+  if (!o.hyoid.empty() && o.registered)
+    refuse("--hyoid", "--registered says that the file is in the model's frame already");
   if (!o.palate.empty() && o.registered)
     refuse("--palate", "--registered says that the file is in the model's frame already");
   if (o.read.mm_per_px > 0 && !o.read.units.empty() && o.read.units != "px")

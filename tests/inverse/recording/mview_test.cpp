@@ -91,6 +91,22 @@ TEST_F(Mview, AMatrixIsAPalateByItsNameOrAsTheOnlyOne) {
   EXPECT_EQ(read_raw(path, o).file.frames.size(), 1u);
 }
 
+TEST_F(Mview, SensorsOnAPlateAreKnownByTheirNamesOrAskedFor) {
+  ReadOptions o;
+  o.role = "bite plane";
+  const auto plate = mview("bp.mat", MAT_FT_MAT5,
+                           {{"OS", 100, 6, signal_of(0)},
+                            {"MS", 100, 6, signal_of(-30)},
+                            {"TT", 100, 6, signal_of(-9)}});
+  const auto raw = read_raw(plate, o);
+  ASSERT_EQ(raw.file.frames.front().points.size(), 2u);
+  const auto other = mview("tt.mat", MAT_FT_MAT5, {{"TT", 100, 6, signal_of(-9)}});
+  EXPECT_NE(error(other, o).find("--bite-plane-sensors OS,MS; it has TT"), std::string::npos)
+      << error(other, o);
+  o.sensors = {{"TT", "bite plane"}};
+  EXPECT_EQ(read_raw(other, o).file.frames.front().points.size(), 1u);
+}
+
 TEST_F(Mview, OtherMatlabFilesAreNamedAsWhatTheyAre) {
   const auto path = saved("m.mat", MAT_FT_MAT5, {matrix("masks", 2, 2, {1, 2, 3, 4})});
   EXPECT_NE(error(path, tongue()).find("none of its variables ('masks')"), std::string::npos);
