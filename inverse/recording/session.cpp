@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "inverse/recording/base/curve_pieces.hpp"
-#include "inverse/recording/base/table_text.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/sensor_place.hpp"
+#include "inverse/recording/session_marks.hpp"
 
 namespace genio {
 namespace {
@@ -19,9 +19,7 @@ constexpr double place_sd = 10e-3;  // of a marked point about its place at rest
 constexpr double alike = 6, alike_alone = 12;
 constexpr double far_better = 12;                        // what it takes to doubt what was said
 constexpr double oblique = 18 * std::numbers::pi / 180;  // of a bite plane that is doubted
-// Of a hyoid about the model's [m]: over 41 speakers it lies within 7 and 5 mm of its mean place
-// behind and below the incisors; a jaw that opens moves it by up to 7.
-constexpr double hyoid_sd = 9e-3;
+constexpr double far_hyoid = 3 * hyoid_sd;               // [m] of one that is doubted
 constexpr double unusual = 15;  // cost of an articulograph whose third axis is not up
 
 struct Candidate {
@@ -102,39 +100,6 @@ double place_cost(const Model& model, const ContourFile& file, const Similarity&
   return cost;
 }
 
-/// A trace is one frame; the sweep of a sensor is all of them.
-std::vector<Vec2> trace_of(const ContourFile& palate) {
-  std::vector<Vec2> trace;
-  for (const auto& line : midsagittal_points(palate)) {
-    trace.insert(trace.end(), line.begin(), line.end());
-    if (palate.format.content != Content::sensors) break;
-  }
-  return trace;
-}
-
-/// Where a model has its hyoid: the middle of the bone's cut.
-Vec2 hyoid_of(const Model& model) {
-  if (!model.hyoid) throw InputError("--hyoid: the model file has no hyoid in [surfaces]");
-  Vec2 middle = Vec2::Zero();
-  double count = 0;
-  for (const auto& line : midsagittal_cut(*model.hyoid))
-    for (const Vec2& q : line) middle += q, ++count;
-  if (count == 0)
-    throw InputError("--hyoid: the model's hyoid does not cross the midsagittal plane");
-  return middle / count;
-}
-
-HeadMarks marks_as(const Model& model, const SessionMarks& session, const AxesReading& reading) {
-  HeadMarks marks;
-  if (session.bite_plane)
-    marks.bite_plane = bite_plane_of(trace_of(turned(session.bite_plane->file, reading)),
-                                     session.bite_plane->path);
-  if (session.hyoid)
-    marks.hyoid = KnownPlace{trace_of(turned(session.hyoid->file, reading)).front(),
-                             hyoid_of(model), hyoid_sd};
-  return marks;
-}
-
 Candidate candidate(const Model& model, const TongueReach& reach, const Traces& session,
                     const AxesReading& reading) {
   const ContourFile& target = *session.target;
@@ -199,26 +164,6 @@ SessionFile read_bite_plane(const std::string& path, ReadOptions options,
   return read_trace(path, std::move(options), target);
 }
 
-SessionFile hyoid_at(const std::string& text, const ReadOptions& options,
-                     const SessionFile& target) {
-  const auto comma = text.find(',');
-  double x = 0, y = 0;
-  if (comma == std::string::npos || !parse_number(text.substr(0, comma), x) ||
-      !parse_number(text.substr(comma + 1), y))
-    throw InputError(
-        fmt::format("--hyoid {}: expected X,Y, two numbers as the contours have", text));
-  if (target.file.format.content != Content::curves)
-    throw InputError(fmt::format("--hyoid: does not apply; {} holds no curves", target.path));
-  ContourFile file;
-  file.format = target.file.format;
-  ContourPoint& point = file.frames.emplace_back().points.emplace_back();
-  point.position = {x, not_given, y}, point.kind = "hyoid";
-  ReadOptions same_units = options;
-  same_units.units = target.file.units;
-  const std::string name = "--hyoid " + text;
-  return {name, in_metres(std::move(file), target.axes, name, same_units), target.axes};
-}
-
 AlignedRecording align(const Model& model, SessionFile target,
                        const std::optional<SessionFile>& palate, const ReadOptions& options,
                        const SessionMarks& marks) {
@@ -270,6 +215,11 @@ AlignedRecording align(const Model& model, SessionFile target,
         "its bite plane is tilted by {:.0f} degrees against the model's occlusal plane, once it is "
         "registered: is it of the same session?",
         *result.bite_plane * 180 / std::numbers::pi));
+  if (result.hyoid && *result.hyoid > far_hyoid)
+    result.judgement.faults.push_back(fmt::format(
+        "its hyoid lies {:.0f} mm from the model's, once it is registered: is it in the numbers of "
+        "the contours?",
+        1e3 * *result.hyoid));
   if (!others.empty() && others.front().cost + far_better < best.cost)
     result.judgement.faults.push_back(
         fmt::format("its axes were read as {}, and {} fits better: is it a mirror image?",

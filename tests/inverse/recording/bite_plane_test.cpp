@@ -104,6 +104,12 @@ TEST_F(BitePlaneOfASession, AHyoidPullsTowardsTheModels) {
             std::abs(alone.registration.transform.angle + bowed));
 }
 
+TEST_F(BitePlaneOfASession, AHyoidFarFromTheModelsIsAFault) {
+  const auto told = align(model, tongue(), {}, {}, {.hyoid = file_of({Vec2(0.3, 0.3)}, bowed)});
+  ASSERT_FALSE(told.judgement.faults.empty());
+  EXPECT_NE(told.judgement.faults.back().find("hyoid lies"), std::string::npos);
+}
+
 TEST_F(BitePlaneOfASession, AHyoidIsTwoNumbersInTheUnitsOfTheContours) {
   SessionFile curves = tongue();
   curves.file.units = "px";
