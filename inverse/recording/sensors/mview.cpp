@@ -67,8 +67,9 @@ std::vector<Trajectory> moving(const DataTree& array, const std::string& path) {
     result.push_back({name->text, hertz, signal});
   }
   if (result.empty())
-    throw InputError(path +
-                     ": no trajectory has samples of x, y and z; is it a recording of sound?");
+    throw InputError(
+        path +
+        ": no trajectory has samples of x, y and z; is it a recording of sound, or cut short?");
   return result;
 }
 
