@@ -45,10 +45,17 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
               {.only_with = {"--palate"}});
   options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there",
               {.only_with = {"--palate"}});
+  options.add("--bite-plane", o.bite_plane,
+              "Bite plane of the same session: a straight trace, or sensors on a plate");
+  options.add("--bite-plane-sensors", o.bite_plane_sensors,
+              "EMA: the sensors on the plate there, by default OS, MS and BP...",
+              {.separator = ',', .only_with = {"--bite-plane"}});
+  options.add("--hyoid", o.hyoid,
+              "X,Y of the hyoid or its shadow, in the numbers of the target's contours");
   options.flag("--force-registration", o.force,
                "Answer although the registration fails its test; every result says so");
   options.flag("--registered", o.registered, "The file is in the model's frame already",
-               {.not_with = {"--palate"}});
+               {.not_with = {"--palate", "--bite-plane", "--hyoid"}});
   options.add("--frames", o.choice.frames, "A-B, counted from 1, or times as in 1.2s-1.8s");
   options.add("--textgrid", o.choice.textgrid,
               "Praat TextGrid: one frame a labelled interval or point, with its label");

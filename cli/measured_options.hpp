@@ -6,7 +6,8 @@ namespace genio::cli {
 
 /// Declares --target, --frames, --palate, --noise-mm, and what files do not say: --format, --units,
 /// --mm-per-px, --facing, --y-grows, --sensors, --palate-sensor, --rate-hz, --registered,
-/// --columns, --spline; and which frames: --frames, --textgrid, --tier, --labels.
+/// --bite-plane, --hyoid, --columns, --spline; and which frames: --frames, --textgrid, --tier,
+/// --labels.
 void add_measured_options(Options& options, MeasuredOptions& o);
 
 }  // namespace genio::cli

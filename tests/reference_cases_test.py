@@ -49,7 +49,8 @@ EXPECTED = {
     'fmt_mocha_ascii': (2, 'tt: about', None),
     'fmt_mtracker': (0, None, close(0.98, 0.3)),
     'fmt_ndi_wave': (2, 'at least 5 points', None),
-    'fmt_usc_pts': (2, 'contours of 783 mm', None),  # read, but no tongue at its pixels' size
+    # Read, but no tongue at its pixels' size: the message tells at which it would be one.
+    'fmt_usc_pts': (2, '270 px are 80 mm at --mm-per-px 0.3', None),
     'fmt_xrmb': (0, None, None),
     'no_palate': (2, '--facing left', None),
     'registration_upside_down': (1, 'cannot be laid beside the model', None),

@@ -55,12 +55,11 @@ std::vector<Vec2> bent(const TongueReach& reach, const Vector& shape) {
   return line;
 }
 
-/// How the residual of a point that the registration moves to `at` turns with v. Distances count in
-/// the device's own lengths, else what fits badly would shrink.
+/// How a residual turns with v. Distances count in the device's own lengths, else what fits badly
+/// would shrink.
 Rows4 by_v(const Vec2& at, const Vec2& middle, const Vec2& offset) {
-  const Vec2 arm = at - middle;
-  Rows4 rows;
-  rows << -arm[1], arm[0] - offset[0], 1, 0, arm[0], arm[1] - offset[1], 0, 1;
+  Rows4 rows = by_registration(at, middle);
+  rows.col(1) -= offset;
   return rows;
 }
 
@@ -77,7 +76,7 @@ Eigen::Matrix2d counting(const std::vector<Vec2>& line, const LineFoot& foot) {
 double cost_of(const RegistrationProblem& p, const TongueReach& reach, const Place& at) {
   const Similarity s = p.transform(at.v);
   const Weights w = weights_of(p, at.v);
-  double sum = belief_cost(at.v);
+  double sum = beliefs(p, at.v).cost;
   for (const Vec2& q : p.trace) sum += w.trace * foot_on(p.palate, s(q)).offset.squaredNorm();
   for (size_t k = 0; k < p.contours.size(); ++k) {
     const std::vector<Vec2> line = bent(reach, at.shapes[k]);
@@ -125,8 +124,8 @@ void add_contour(Normal& n, size_t k, const RegistrationProblem& p, const Tongue
 Normal normal_of(const RegistrationProblem& p, const TongueReach& reach, const Place& at) {
   const Weights w = weights_of(p, at.v);
   Normal n;
-  n.a(0, 0) = 1 / (tilt_sd * tilt_sd), n.a(1, 1) = 1 / (usual_scale_sd * usual_scale_sd);
-  n.g = n.a.diagonal().cwiseProduct(Vector4::Map(at.v.data()));
+  const Beliefs known = beliefs(p, at.v);
+  n.a = known.curvature, n.g = known.slope;
   add_trace(n, p, at, w.trace);
   for (size_t k = 0; k < p.contours.size(); ++k) {
     const auto modes = at.shapes[k].size();

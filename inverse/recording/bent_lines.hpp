@@ -8,8 +8,8 @@ namespace genio {
 
 /// Where the recording lies in the model, with each contour's line bent to it along the reach.
 struct BentFit {
-  double cost = 0;                       ///< squares in units of their standard deviations
-  std::vector<double> v;                 ///< tilt, logarithm of the scale, place of the middle
+  double cost = 0;                            ///< squares in units of their standard deviations
+  std::vector<double> v;                      ///< tilt, logarithm of the scale, place of the middle
   std::vector<std::vector<Vec2>> lines = {};  ///< one a contour [m]
   /// The covariance of v in Laplace's approximation, whatever the shapes are.
   Eigen::Matrix4d spread = Eigen::Matrix4d::Zero();

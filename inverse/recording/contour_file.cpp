@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "inverse/recording/base/confidence.hpp"
 #include "inverse/recording/format_list.hpp"
 
 namespace genio {
@@ -23,7 +24,9 @@ void check_options(const std::string& path, const std::string& format, const Rea
                                    fmt::join(formats, " or "), format));
   };
   check(!o.columns.empty(), "--columns", {"columns"});
-  check(!o.spline.empty(), "--spline", {"aaa", "deeplabcut"});
+  std::vector<std::string> of_splines = {"aaa", "deeplabcut"};
+  if (o.role != "tongue") of_splines.emplace_back("mview");
+  check(!o.spline.empty(), "--spline", of_splines);
   check(!o.points.empty(), "--points", {"usc_pts"});
 }
 
@@ -34,6 +37,7 @@ RawContours read_raw(const std::string& path, const ReadOptions& options) {
   check_options(path, format.traits.name, options);
   RawContours raw = format.read(path, options);
   raw.file.format = format.traits;
+  remark_widened(raw.file);
   return raw;
 }
 

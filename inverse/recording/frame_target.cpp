@@ -61,7 +61,7 @@ Target make_target(const Model& model, const ContourFrame& frame, double noise) 
   for (size_t i = 0; i < frame.points.size(); ++i) {
     const ContourPoint& p = frame.points[i];
     const Vec3& q = p.position;
-    const double sigma = p.sigma > 0 ? p.sigma : noise;
+    const double sigma = p.sigma > 0 ? p.sigma : p.widening * noise;
     const Vec3 flat(q[0], std::isnan(q[1]) ? 0.0 : q[1], q[2]);
     if (!((flat - middle).norm() < too_far))
       throw InputError(fmt::format(

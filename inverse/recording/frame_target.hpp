@@ -11,9 +11,9 @@ namespace genio {
 ContourFrame registered(const Model& model, const ContourFrame& frame, const Similarity& transform);
 
 /// Target of one frame, which is in the model's frame: points without a noise of their own get
-/// `noise` [m], flesh points are looked up in the model ("tip", "blade", "dorsum", "root",
-/// "node:919"). Points farther than 120 mm from the tongue's middle mean wrong units.
-/// Throws InputError naming the point.
+/// `noise` [m], widened where the file is less sure of them, flesh points are looked up in the
+/// model ("tip", "blade", "dorsum", "root", "node:919"). Points farther than 120 mm from the
+/// tongue's middle mean wrong units. Throws InputError naming the point.
 Target make_target(const Model& model, const ContourFrame& frame, double noise);
 
 /// The nodes whose weighted positions are a marked point's ("tip", "node:919", ...). Throws

@@ -25,8 +25,10 @@ std::vector<T> thin(const std::vector<T>& all, size_t count) {
 }
 
 RegistrationProblem problem_of(const TongueReach& reach,
-                               const std::vector<std::vector<Vec2>>& contours) {
+                               const std::vector<std::vector<Vec2>>& contours,
+                               const HeadMarks& marks) {
   RegistrationProblem problem;
+  problem.marks = marks;
   for (const auto& contour : thin(contours, enough_frames))
     problem.contours.push_back(thin(contour, enough_points));
   problem.rest = reach.rest;
@@ -34,10 +36,13 @@ RegistrationProblem problem_of(const TongueReach& reach,
 }
 
 /// Places from which an optimum is looked for: of the middle, each at several tilts.
-std::vector<std::vector<double>> starts_at(const std::vector<Vec2>& middles) {
+std::vector<std::vector<double>> starts_at(const RegistrationProblem& problem,
+                                           const std::vector<Vec2>& middles) {
   std::vector<std::vector<double>> starts;
+  const double level = problem.marks.bite_plane ? -problem.marks.bite_plane->tilt : 0;
   for (const Vec2& middle : middles)
-    for (double tilt : {-0.35, 0.0, 0.35}) starts.push_back({tilt, 0, middle[0], middle[1]});
+    for (double tilt : {-0.35, 0.0, 0.35})
+      starts.push_back({level + tilt, 0, middle[0], middle[1]});
   return starts;
 }
 
@@ -49,8 +54,8 @@ bool same_place(const std::vector<double>& a, const std::vector<double>& b) {
 /// about the line at rest.
 BentFit best_fit(const RegistrationProblem& problem, const TongueReach& reach,
                  const std::vector<Vec2>& middles) {
-  std::vector<std::vector<double>> starts = starts_at(middles), each;
-  for (std::vector<double> start : starts_at(middles)) {
+  std::vector<std::vector<double>> starts = starts_at(problem, middles), each;
+  for (std::vector<double> start : starts_at(problem, middles)) {
     minimise(problem, start);
     starts.push_back(std::move(start));
   }
@@ -107,14 +112,15 @@ double rms_distance(const Similarity& s, const std::vector<Vec2>& points,
 
 Registration register_by_palate(const Model& model, const TongueReach& reach,
                                 const std::vector<Vec2>& palate_trace,
-                                const std::vector<std::vector<Vec2>>& contours) {
+                                const std::vector<std::vector<Vec2>>& contours,
+                                const HeadMarks& marks) {
   if (!model.palate)
     throw InputError("registration needs a palate; the model file has none in [surfaces]");
   if (palate_trace.size() < 5)
     throw InputError("registration needs a palate trace of at least 5 points");
   const auto cut = midsagittal_cut(*model.palate);
   if (cut.empty()) throw InputError("the model's palate does not cross the midsagittal plane");
-  RegistrationProblem problem = problem_of(reach, contours);
+  RegistrationProblem problem = problem_of(reach, contours, marks);
   problem.palate.assign(cut.front().begin(), cut.front().end());
   problem.trace = thin(palate_trace, enough_trace);
   problem.weight = contours_weight;
@@ -128,8 +134,9 @@ Registration register_by_palate(const Model& model, const TongueReach& reach,
 }
 
 Registration register_by_contours(const TongueReach& reach,
-                                  const std::vector<std::vector<Vec2>>& contours) {
-  RegistrationProblem problem = problem_of(reach, contours);
+                                  const std::vector<std::vector<Vec2>>& contours,
+                                  const HeadMarks& marks) {
+  RegistrationProblem problem = problem_of(reach, contours, marks);
   problem.weight = alone_weight;
   size_t count = 0;
   for (const auto& c : contours) {

@@ -1,8 +1,10 @@
 #pragma once
 // Bringing a recording's own frame into the model's, by the palate both know.
 
+#include <optional>
 #include <vector>
 
+#include "inverse/recording/base/bite_plane.hpp"
 #include "inverse/recording/contour_file.hpp"
 #include "inverse/recording/reach.hpp"
 
@@ -13,6 +15,18 @@ struct Similarity {
   double scale = 1, angle = 0;  ///< [-], [rad], counter-clockwise with x back and z up
   Vec2 shift = Vec2::Zero();    ///< [m]
   Vec2 operator()(const Vec2& q) const;
+};
+
+/// A point of the recording that is one of the model's within `sd`, lengths in metres.
+struct KnownPlace {
+  Vec2 in_recording, in_model;
+  double sd = 0;
+};
+
+/// What beside palate and contours tells where the head was.
+struct HeadMarks {
+  std::optional<BitePlane> bite_plane = {};
+  std::optional<KnownPlace> hyoid = {};
 };
 
 struct Registration {
@@ -35,15 +49,18 @@ double rms_distance(const Similarity& s, const std::vector<Vec2>& points,
 /// smooth arch that leaves a slide, a tilt and the scale nearly free: on real ultrasound two
 /// registrations fit the palate equally well (RMS 1 mm). So scale and tilt have weak priors (6 %
 /// and 20 degrees), and the contours of all frames together decide, as much as 60 points: they lie
-/// about the rest shape (5 mm), then about lines that the reach bends to them (2.5 mm). Throws
+/// about the rest shape (5 mm), then about lines that the reach bends to them (2.5 mm). A bite
+/// plane tells the tilt in place of its prior, and a hyoid a place within its spread. Throws
 /// InputError when the model has no palate or the trace fewer than 5 points.
 Registration register_by_palate(const Model& model, const TongueReach& reach,
                                 const std::vector<Vec2>& palate_trace,
-                                const std::vector<std::vector<Vec2>>& contours);
+                                const std::vector<std::vector<Vec2>>& contours,
+                                const HeadMarks& marks = {});
 
 /// The same without a palate: the contours alone lie about the rest shape. Scale and tilt are known
 /// by their priors and little else. Throws InputError for fewer than 5 points.
 Registration register_by_contours(const TongueReach& reach,
-                                  const std::vector<std::vector<Vec2>>& contours);
+                                  const std::vector<std::vector<Vec2>>& contours,
+                                  const HeadMarks& marks = {});
 
 }  // namespace genio

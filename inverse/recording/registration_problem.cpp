@@ -31,8 +31,30 @@ Similarity RegistrationProblem::transform(const std::vector<double>& v) const {
   return s;
 }
 
-double belief_cost(const std::vector<double>& v) {
-  return v[0] * v[0] / (tilt_sd * tilt_sd) + v[1] * v[1] / (usual_scale_sd * usual_scale_sd);
+Eigen::Matrix<double, 2, 4> by_registration(const Vec2& at, const Vec2& middle) {
+  const Vec2 arm = at - middle;
+  Eigen::Matrix<double, 2, 4> rows;
+  rows << -arm[1], arm[0], 1, 0, arm[0], arm[1], 0, 1;
+  return rows;
+}
+
+Beliefs beliefs(const RegistrationProblem& problem, const std::vector<double>& v) {
+  Beliefs b;
+  const auto& plane = problem.marks.bite_plane;
+  const double turn = v[0] + (plane ? plane->tilt : 0), turn_sd = plane ? plane->sd : tilt_sd;
+  const double scale_sd = problem.free ? free_scale_sd : usual_scale_sd;
+  b.curvature(0, 0) = 1 / (turn_sd * turn_sd), b.curvature(1, 1) = 1 / (scale_sd * scale_sd);
+  b.slope[0] = turn * b.curvature(0, 0), b.slope[1] = v[1] * b.curvature(1, 1);
+  b.cost = turn * b.slope[0] + v[1] * b.slope[1];
+  if (const auto& hyoid = problem.marks.hyoid) {
+    const Vec2 at = problem.transform(v)(hyoid->in_recording), off = at - hyoid->in_model;
+    const double each = 1 / (hyoid->sd * hyoid->sd);
+    const auto rows = by_registration(at, Vec2(v[2], v[3]));
+    b.cost += each * off.squaredNorm();
+    b.slope += each * rows.transpose() * off;
+    b.curvature += each * rows.transpose() * rows;
+  }
+  return b;
 }
 
 double RegistrationProblem::cost(const std::vector<double>& v,
@@ -53,9 +75,8 @@ double RegistrationProblem::cost(const std::vector<double>& v,
   slope[1] -= 2 * sum;
   const double by = std::exp(-2 * v[1]);
   sum *= by, slope *= by;
-  const double scale_sd = free ? free_scale_sd : usual_scale_sd;
-  slope[0] += 2 * v[0] / (tilt_sd * tilt_sd), slope[1] += 2 * v[1] / (scale_sd * scale_sd);
-  sum += v[0] * v[0] / (tilt_sd * tilt_sd) + v[1] * v[1] / (scale_sd * scale_sd);
+  const Beliefs known = beliefs(*this, v);
+  sum += known.cost, slope += 2 * known.slope;
   if (!gradient.empty()) Eigen::Vector4d::Map(gradient.data()) = slope;
   return sum;
 }

@@ -22,6 +22,7 @@ struct RegistrationProblem {
   std::vector<Vec2> rest;      ///< the tongue's line at rest
   double weight = 0;           ///< independent points of all contours
   bool free = false;           ///< nothing is believed of the scale
+  HeadMarks marks;             ///< a bite plane is horizontal in the model
   Vec2 centre = Vec2::Zero();  ///< rotation and scale act about it
 
   Similarity transform(const std::vector<double>& v) const;
@@ -30,8 +31,17 @@ struct RegistrationProblem {
   double cost(const std::vector<double>& v, std::vector<double>& gradient) const;
 };
 
-/// What tilt and scale cost by themselves.
-double belief_cost(const std::vector<double>& v);
+/// Squares that are no misfit of palate or contours: of tilt and scale about what is believed, and
+/// of the hyoid about its place.
+struct Beliefs {
+  double cost = 0;
+  Eigen::Vector4d slope = Eigen::Vector4d::Zero();      ///< half the gradient
+  Eigen::Matrix4d curvature = Eigen::Matrix4d::Zero();  ///< half the Hessian of Gauss and Newton
+};
+Beliefs beliefs(const RegistrationProblem& problem, const std::vector<double>& v);
+
+/// How a point that the registration moves to `at` turns with v, its middle at `middle`.
+Eigen::Matrix<double, 2, 4> by_registration(const Vec2& at, const Vec2& middle);
 
 /// Runs from `v` to the optimum of cost() near it and gives the cost there.
 double minimise(const RegistrationProblem& problem, std::vector<double>& v);

@@ -9,6 +9,7 @@
 #include "inverse/recording/base/curve_pieces.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/sensor_place.hpp"
+#include "inverse/recording/session_marks.hpp"
 
 namespace genio {
 namespace {
@@ -16,14 +17,23 @@ namespace {
 constexpr double place_sd = 10e-3;  // of a marked point about its place at rest [m]
 // Costs that differ by less do not tell two readings apart, by a palate and by contours alone.
 constexpr double alike = 6, alike_alone = 12;
-constexpr double far_better = 12;  // what it takes to doubt what was said
-constexpr double unusual = 15;     // cost of an articulograph whose third axis is not up
+constexpr double far_better = 12;                        // what it takes to doubt what was said
+constexpr double oblique = 18 * std::numbers::pi / 180;  // of a bite plane that is doubted
+constexpr double far_hyoid = 3 * hyoid_sd;               // [m] of one that is doubted
+constexpr double unusual = 15;  // cost of an articulograph whose third axis is not up
 
 struct Candidate {
   AxesReading reading;
   bool said = false;  ///< agrees with what the caller and, of curves, the format say
   Registration registration = {};
   double cost = 0;  ///< of the registration and of marked points about their places
+  std::optional<double> bite_plane = {}, hyoid = {};  ///< as of AlignedRecording
+};
+
+/// What a session's files hold; those beside the target may be absent.
+struct Traces {
+  const ContourFile *target, *palate;
+  const SessionMarks* marks;
 };
 
 /// All that a device can have. Sensors in a plane have two coordinates.
@@ -90,24 +100,20 @@ double place_cost(const Model& model, const ContourFile& file, const Similarity&
   return cost;
 }
 
-/// A trace is one frame; the sweep of a sensor is all of them.
-std::vector<Vec2> trace_of(const ContourFile& palate) {
-  std::vector<Vec2> trace;
-  for (const auto& line : midsagittal_points(palate)) {
-    trace.insert(trace.end(), line.begin(), line.end());
-    if (palate.format.content != Content::sensors) break;
-  }
-  return trace;
-}
-
-Candidate candidate(const Model& model, const TongueReach& reach, const ContourFile& target,
-                    const ContourFile* palate, const AxesReading& reading) {
+Candidate candidate(const Model& model, const TongueReach& reach, const Traces& session,
+                    const AxesReading& reading) {
+  const ContourFile& target = *session.target;
+  const ContourFile* palate = session.palate;
   const ContourFile file = turned(target, reading);
   const auto contours = midsagittal_points(file);
+  const HeadMarks marks = marks_as(model, *session.marks, reading);
   Candidate c{.reading = reading};
   c.registration =
-      palate ? register_by_palate(model, reach, trace_of(turned(*palate, reading)), contours)
-             : register_by_contours(reach, contours);
+      palate ? register_by_palate(model, reach, trace_of(turned(*palate, reading)), contours, marks)
+             : register_by_contours(reach, contours, marks);
+  if (marks.bite_plane) c.bite_plane = c.registration.transform.angle + marks.bite_plane->tilt;
+  if (marks.hyoid)
+    c.hyoid = (c.registration.transform(marks.hyoid->in_recording) - marks.hyoid->in_model).norm();
   c.cost = c.registration.cost + place_cost(model, file, c.registration.transform);
   if (target.format.content == Content::sensors && !(reading.up == 2 && reading.up_grows))
     c.cost += unusual;
@@ -135,8 +141,9 @@ SessionFile read_session_file(const std::string& path, const ReadOptions& option
   return session_file(path, read_raw(path, options), options);
 }
 
-SessionFile read_palate(const std::string& path, ReadOptions options, const SessionFile& target) {
-  options.role = "palate";
+namespace {
+
+SessionFile read_trace(const std::string& path, ReadOptions options, const SessionFile& target) {
   check_axes_options(options);
   RawContours raw = read_raw(path, options);
   if (raw.axes && raw.axes->units.empty() && options.units.empty() && options.mm_per_px == 0)
@@ -144,12 +151,27 @@ SessionFile read_palate(const std::string& path, ReadOptions options, const Sess
   return session_file(path, std::move(raw), options);
 }
 
+}  // namespace
+
+SessionFile read_palate(const std::string& path, ReadOptions options, const SessionFile& target) {
+  options.role = "palate";
+  return read_trace(path, std::move(options), target);
+}
+
+SessionFile read_bite_plane(const std::string& path, ReadOptions options,
+                            const SessionFile& target) {
+  options.role = "bite plane";
+  return read_trace(path, std::move(options), target);
+}
+
 AlignedRecording align(const Model& model, SessionFile target,
-                       const std::optional<SessionFile>& palate, const ReadOptions& options) {
+                       const std::optional<SessionFile>& palate, const ReadOptions& options,
+                       const SessionMarks& marks) {
   const Content content = target.file.format.content;
   const ContourFile* trace = palate ? &palate->file : nullptr;
   if (trace && trace_of(*trace).empty())
     throw InputError(palate->path + ": no palate point has a value");
+  const Traces session{&target.file, trace, &marks};
   const Vec3 extent = spread(target.file, trace);
   const TongueReach reach = reach_of(model);
   std::vector<Candidate> said, others;
@@ -157,7 +179,7 @@ AlignedRecording align(const Model& model, SessionFile target,
     const bool agreed = agrees(reading, target.axes, options, content);
     const bool asked = agreed && !options.axes.empty();
     if (!asked && !in_plane(reading, extent)) continue;
-    (agreed ? said : others).push_back(candidate(model, reach, target.file, trace, reading));
+    (agreed ? said : others).push_back(candidate(model, reach, session, reading));
   }
   const auto cheaper = [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; };
   std::sort(said.begin(), said.end(), cheaper);
@@ -182,8 +204,22 @@ AlignedRecording align(const Model& model, SessionFile target,
       throw InputError(fmt::format(
           "{}: two readings of its axes fit alike, {} and {}; say which by those options",
           target.path, described(best, content), described(said[k], content)));
-  AlignedRecording result{turned(std::move(target.file), best.reading), best.registration,
-                          best.reading, judgement};
+  AlignedRecording result{turned(std::move(target.file), best.reading),
+                          best.registration,
+                          best.reading,
+                          judgement,
+                          best.bite_plane,
+                          best.hyoid};
+  if (result.bite_plane && std::abs(*result.bite_plane) > oblique)
+    result.judgement.faults.push_back(fmt::format(
+        "its bite plane is tilted by {:.0f} degrees against the model's occlusal plane, once it is "
+        "registered: is it of the same session?",
+        *result.bite_plane * 180 / std::numbers::pi));
+  if (result.hyoid && *result.hyoid > far_hyoid)
+    result.judgement.faults.push_back(fmt::format(
+        "its hyoid lies {:.0f} mm from the model's, once it is registered: is it in the numbers of "
+        "the contours?",
+        1e3 * *result.hyoid));
   if (!others.empty() && others.front().cost + far_better < best.cost)
     result.judgement.faults.push_back(
         fmt::format("its axes were read as {}, and {} fits better: is it a mirror image?",

@@ -23,20 +23,39 @@ SessionFile read_session_file(const std::string& path, const ReadOptions& option
 /// the caller says others.
 SessionFile read_palate(const std::string& path, ReadOptions options, const SessionFile& target);
 
+/// The same for its bite plane.
+SessionFile read_bite_plane(const std::string& path, ReadOptions options,
+                            const SessionFile& target);
+
+/// The hyoid, or its shadow, at "X,Y" in the numbers of the target's contours. Throws InputError
+/// where it is none, or the target holds no curves.
+SessionFile hyoid_at(const std::string& text, const ReadOptions& options,
+                     const SessionFile& target);
+
+/// Files and points of a session beside target and palate.
+struct SessionMarks {
+  std::optional<SessionFile> bite_plane = {}, hyoid = {};
+};
+
 /// A recording with its registration, and the reading of the axes that it belongs to.
 struct AlignedRecording {
   ContourFile file;  ///< x backwards and z up, its place still the device's
   Registration registration;
   AxesReading reading;
   Judgement judgement;
+  /// The bite plane's tilt against the model's occlusal plane, where there is one [rad].
+  std::optional<double> bite_plane = {};
+  std::optional<double> hyoid = {};  ///< from the model's hyoid, once registered [m]
 };
 
 /// Finds the axes once for all files of the session. Every reading that the caller allows is
-/// registered, by the palate where there is one, else by the contours alone; the cheapest is taken.
+/// registered, by the palate where there is one, else by the contours alone, and by bite plane and
+/// hyoid where there are any; the cheapest is taken. A bite plane far from the model's is a fault.
 /// A reading that the format or the caller excludes and that fits far better is a fault of the
 /// judgement. Throws InputError that names both where two allowed ones fit alike.
 AlignedRecording align(const Model& model, SessionFile target,
-                       const std::optional<SessionFile>& palate, const ReadOptions& options);
+                       const std::optional<SessionFile>& palate, const ReadOptions& options,
+                       const SessionMarks& marks = {});
 
 /// The points of all frames on the midsagittal line, curves and marked points, (x, z) [m].
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);

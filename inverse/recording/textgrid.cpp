@@ -10,7 +10,7 @@
 
 #include "forward/base/nearest_name.hpp"
 #include "inverse/recording/base/table_text.hpp"
-#include "inverse/recording/base/unicode_text.hpp"
+#include "inverse/recording/base/unicode.hpp"
 
 namespace genio {
 namespace {

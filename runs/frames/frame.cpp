@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "inverse/recording/base/unicode_text.hpp"
+#include "inverse/recording/base/unicode.hpp"
 #include "inverse/recording/frame_target.hpp"
 
 namespace genio {

@@ -35,23 +35,41 @@ bool names_sensors(const std::string& format) {
 /// The file beside the model: by its palate, else by its contours.
 AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredOptions& o,
                          const ReadOptions& read) {
-  if (o.palate.empty()) return align(model, std::move(target), {}, read);
-  ReadOptions palate = read;
-  palate.sensors.clear(), palate.columns.clear(), palate.points.clear();
-  palate.spline = o.palate_spline;
-  if (!o.palate_sensor.empty()) palate.sensors[o.palate_sensor] = "palate";
-  if (o.palate_sensor.empty() && names_sensors(o.read.format)) palate.format = "auto";
-  const SessionFile trace = read_palate(o.palate, palate, target);
-  return align(model, std::move(target), trace, read);
+  ReadOptions beside = read;
+  beside.sensors.clear(), beside.columns.clear(), beside.points.clear(), beside.spline.clear();
+  std::optional<SessionFile> palate;
+  SessionMarks marks;
+  if (!o.palate.empty()) {
+    ReadOptions options = beside;
+    options.spline = o.palate_spline;
+    if (!o.palate_sensor.empty()) options.sensors[o.palate_sensor] = "palate";
+    if (o.palate_sensor.empty() && names_sensors(o.read.format)) options.format = "auto";
+    palate = read_palate(o.palate, options, target);
+  }
+  if (!o.bite_plane.empty()) {
+    ReadOptions options = beside;
+    for (const std::string& sensor : o.bite_plane_sensors) options.sensors[sensor] = "bite plane";
+    marks.bite_plane = read_bite_plane(o.bite_plane, options, target);
+  }
+  if (!o.hyoid.empty()) marks.hyoid = hyoid_at(o.hyoid, read, target);
+  return align(model, std::move(target), palate, read, marks);
 }
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 std::string text_of(const RegistrationRecord& r) {
   const Judgement& j = r.judgement;
   const std::string palate =
       r.by_palate ? fmt::format(", palate RMS {:.2f} mm", 1e3 * j.palate_rms) : "";
+  const std::string plane =
+      r.bite_plane
+          ? fmt::format(", bite plane {:.1f} degrees off the model's", degrees(*r.bite_plane))
+          : "";
+  const std::string hyoid =
+      r.hyoid ? fmt::format(", hyoid {:.1f} mm from the model's", 1e3 * *r.hyoid) : "";
   return fmt::format(
-      "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}; contours {:.1f} mm from rest",
-      r.by_palate ? "palate" : "contours alone", j.scale, j.tilt * 180 / std::numbers::pi, palate,
+      "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}{}{}; contours {:.1f} mm from rest",
+      r.by_palate ? "palate" : "contours alone", j.scale, degrees(j.tilt), palate, plane, hyoid,
       1e3 * j.from_rest);
 }
 
@@ -84,7 +102,9 @@ Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOpt
   m.registration = {.judgement = a.judgement,
                     .units = a.file.units,
                     .axes = a.reading.text(a.file.format.content),
-                    .by_palate = !o.palate.empty()};
+                    .by_palate = !o.palate.empty(),
+                    .bite_plane = a.bite_plane,
+                    .hyoid = a.hyoid};
   a.file.remarks.push_back(text_of(m.registration));
   if (const std::string other = of_another(m.registration); !other.empty())
     a.file.remarks.push_back(other);

@@ -17,7 +17,8 @@ namespace genio {
 
 /// As the command line gives them; errors name its options.
 struct MeasuredOptions {
-  std::string target, palate, palate_sensor, palate_spline;
+  std::string target, palate, palate_sensor, palate_spline, bite_plane, hyoid;
+  std::vector<std::string> bite_plane_sensors;
   FrameChoice choice;
   std::vector<std::string> sensors;  ///< "5=tip"
   std::vector<std::string> columns;  ///< "frame=uniqueframe", of the target's table

@@ -18,6 +18,8 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
                          {"tilt_deg", j.tilt * 180 / std::numbers::pi},
                          {"shift_mm", {1e3 * j.shift[0], 1e3 * j.shift[1]}},
                          {"palate_rms_mm", nullptr},
+                         {"bite_plane_deg", nullptr},
+                         {"hyoid_off_mm", nullptr},
                          {"from_rest_mm", 1e3 * j.from_rest},
                          {"off_reach_mm", 1e3 * j.off_reach},
                          {"behind_palate", j.behind_palate},
@@ -30,6 +32,8 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
                          {"reason", faults_text(j)},
                          {"forced", r.forced}};
   if (r.by_palate && !r.given) json["palate_rms_mm"] = 1e3 * j.palate_rms;
+  if (r.bite_plane) json["bite_plane_deg"] = *r.bite_plane * 180 / std::numbers::pi;
+  if (r.hyoid) json["hyoid_off_mm"] = 1e3 * *r.hyoid;
   return json;
 }
 

@@ -19,6 +19,7 @@ void refuse_unless_sensors(const MeasuredOptions& o, const FormatTraits& format)
   if (o.read.rate_hz > 0) refuse("--rate-hz", why);
   if (!o.read.axes.empty()) refuse("--axes", why);
   if (!o.palate_sensor.empty()) refuse("--palate-sensor", why);
+  if (!o.bite_plane_sensors.empty()) refuse("--bite-plane-sensors", why);
 }
 
 void refuse_axes(const MeasuredOptions& o, const FormatTraits& format) {
@@ -30,6 +31,8 @@ void refuse_axes(const MeasuredOptions& o, const FormatTraits& format) {
   if (!o.read.up.empty()) refuse("--y-grows", why);
   if (!o.read.axes.empty()) refuse("--axes", why);
   if (!o.palate.empty()) refuse("--palate", why + " already");
+  if (!o.bite_plane.empty()) refuse("--bite-plane", why + " already");
+  if (!o.hyoid.empty()) refuse("--hyoid", why + " already");
 }
 
 }  // namespace
@@ -39,6 +42,12 @@ void refuse_unused(const MeasuredOptions& o, const FormatTraits& format, bool re
   if (registered) refuse_axes(o, format);
   if (!o.palate_sensor.empty() && o.palate.empty())
     refuse("--palate-sensor", "it is the sensor of the sweep that --palate gives");
+  if (!o.bite_plane_sensors.empty() && o.bite_plane.empty())
+    refuse("--bite-plane-sensors", "they are sensors of the recording that --bite-plane gives");
+  if (!o.bite_plane.empty() && o.registered)
+    refuse("--bite-plane", "--registered says that the file is in the model's frame already");
+  if (!o.hyoid.empty() && o.registered)
+    refuse("--hyoid", "--registered says that the file is in the model's frame already");
   if (!o.palate.empty() && o.registered)
     refuse("--palate", "--registered says that the file is in the model's frame already");
   if (o.read.mm_per_px > 0 && !o.read.units.empty() && o.read.units != "px")

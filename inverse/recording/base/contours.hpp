@@ -16,6 +16,7 @@ struct ContourPoint {
   std::string kind;          ///< "curve", "surface", "volume" or a flesh point's name
   Vec3 rest = Vec3::Zero();  ///< of a volume point: where its tissue lies at rest [m]
   int slice = 0;             ///< of a surface point: which contour it belongs to
+  double widening = 1;       ///< of the caller's noise, where the file is less sure of the point
 };
 
 /// One shape: a frame of a recording.

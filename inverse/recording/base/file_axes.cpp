@@ -59,8 +59,13 @@ double scale(ContourFile& file, const FileAxes& axes, const std::string& path,
   if (unit.empty()) unit = "mm";
   const double size = metres(unit, o, path);
   if (extent > 0 && !(extent * size < longest))
-    throw InputError(fmt::format("{}: contours of {:.4g} mm in {}; a tongue's have 20 to 200 mm",
-                                 path, 1e3 * extent * size, unit));
+    throw InputError(fmt::format(
+        "{}: contours of {:.4g} mm in {}; a tongue's have 20 to 200 mm{}", path,
+        1e3 * extent * size, unit,
+        unit == "px" ? fmt::format(". {:.4g} px are 80 mm at --mm-per-px {:.2g}: was the image "
+                                   "enlarged, or are these several organs?",
+                                   extent, 80 / extent)
+                     : ""));
   file.units = unit;
   file.remarks.push_back(fmt::format("units {} ({}); contours span {:.0f} mm", unit,
                                      told ? "as said" : "by their extent", 1e3 * extent * size));

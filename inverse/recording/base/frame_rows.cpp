@@ -7,7 +7,7 @@
 namespace genio {
 
 void FrameRows::refuse(const std::string& what) const {
-  lines_->fail(fmt::format(
+  place_->fail(fmt::format(
       "frame {} {}; it began on line {}. Two takes? Number their frames apart, or give them a "
       "column 'recording'",
       frames_[last_->index].number, what, last_->first_line));
@@ -19,7 +19,7 @@ ContourFrame& FrameRows::frame(const RowFrame& row) {
   last_ = &it->second;
   returned_ = !fresh && before != last_;
   if (fresh) {
-    last_->index = frames_.size(), last_->first_line = lines_->number();
+    last_->index = frames_.size(), last_->first_line = place_->number();
     ContourFrame& frame = frames_.emplace_back();
     frame.number = row.number, frame.recording = row.recording, frame.speaker = row.speaker;
   }
@@ -36,6 +36,11 @@ ContourFrame& FrameRows::frame(const RowFrame& row) {
       refuse(fmt::format("has two times, {:g} s and {:g} s", *last_->time, *row.time_s));
   }
   return frame;
+}
+
+std::vector<ContourFrame> FrameRows::take() {
+  if (frames_.empty()) place_->fail("the file has a header but no row");
+  return std::move(frames_);
 }
 
 void FrameRows::count(const std::string& list, double point) {

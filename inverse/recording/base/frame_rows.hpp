@@ -22,7 +22,7 @@ struct RowFrame {
 /// or whose points are counted twice, is two that were merged: that is refused.
 class FrameRows {
  public:
-  explicit FrameRows(const TableLines& lines) : lines_(&lines) {}
+  explicit FrameRows(const TablePlace& place) : place_(&place) {}
   /// The frame of the row that was read last. Throws InputError naming file and line.
   ContourFrame& frame(const RowFrame& row);
   /// Notes a point of that frame; `list` tells lists apart that are counted each by itself. Throws
@@ -30,8 +30,8 @@ class FrameRows {
   void count(const std::string& list, double point);
   /// Throws InputError where the last row's frame had ended before.
   void expect_together() const;
-  bool empty() const { return frames_.empty(); }
-  std::vector<ContourFrame> take() { return std::move(frames_); }
+  /// All frames. Throws InputError where there was no row.
+  std::vector<ContourFrame> take();
 
  private:
   using Key = std::tuple<std::string, std::string, int>;  // recording, speaker, number
@@ -43,7 +43,7 @@ class FrameRows {
   };
   [[noreturn]] void refuse(const std::string& what) const;
 
-  const TableLines* lines_;
+  const TablePlace* place_;
   std::vector<ContourFrame> frames_;
   std::map<Key, Seen> seen_;
   Seen* last_ = nullptr;

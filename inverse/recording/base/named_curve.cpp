@@ -19,6 +19,17 @@ bool holds_one_of(const std::string& text, const auto& words) {
                      [&](const char* word) { return text.find(word) != std::string::npos; });
 }
 
+/// "pal", alone or beside other words.
+bool is_short_for_palate(const std::string& text) {
+  for (size_t at = 0; (at = text.find("pal", at)) != std::string::npos; ++at) {
+    const auto letter = [&](size_t k) {
+      return k < text.size() && ((text[k] >= 'a' && text[k] <= 'z') || text[k] < 0);
+    };
+    if ((at == 0 || !letter(at - 1)) && !letter(at + 3)) return true;
+  }
+  return false;
+}
+
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
   for (size_t k = 0; k < names.size() && k < 20; ++k)
@@ -30,8 +41,8 @@ std::string list_of(const std::vector<std::string>& names) {
 
 bool is_called_for(const std::string& name, const std::string& role) {
   const std::string text = lower_case(name);
-  const bool palate = holds_one_of(text, palate_words), bite = holds_one_of(text, bite_words),
-             other = holds_one_of(text, other_words);
+  const bool palate = holds_one_of(text, palate_words) || is_short_for_palate(text),
+             bite = holds_one_of(text, bite_words), other = holds_one_of(text, other_words);
   if (role == "tongue")
     return text.find("tongue") != std::string::npos && !palate && !bite && !other;
   if (role == "palate") return palate && !other;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "inverse/recording/base/unicode.hpp"
@@ -30,9 +31,15 @@ std::string with_decimal_point(const std::string& text) {
   return parse_number(result, value) ? result : std::string();
 }
 
+/// As sensors' tables mark what is missing.
+bool stands_for_nothing(const std::string& field) {
+  const std::string text = lower_case(trimmed(field));
+  return is_missing(text) || text == "inf" || text == "-inf";
+}
+
 }  // namespace
 
-TableLines::TableLines(const std::string& path) : path_(path), in_(path, std::ios::binary) {
+TableLines::TableLines(const std::string& path) : TablePlace(path), in_(path, std::ios::binary) {
   if (std::error_code e; std::filesystem::is_directory(path, e))
     throw InputError(path + ": is a folder; expected a file");
   if (!in_) throw InputError(path + ": no such file");
@@ -88,13 +95,19 @@ bool TableLines::next(std::string& line) {
   return true;
 }
 
+std::string TableLines::first_filled() {
+  std::string line;
+  if (!next_filled(line)) fail("the file is empty; expected a header line or numbers");
+  return line;
+}
+
 bool TableLines::next_filled(std::string& line) {
   while (next(line))
     if (!trimmed(line).empty()) return true;
   return false;
 }
 
-void TableLines::fail(const std::string& what) const {
+void TablePlace::fail(const std::string& what) const {
   throw InputError(fmt::format("{}:{}: {}", path_, std::max(1, number_), what));
 }
 
@@ -137,6 +150,21 @@ char separator_of(const std::string& line) {
 
 std::vector<std::string> fields_of(const std::string& line, char separator) {
   return separator == ' ' ? split_at_blanks(line) : split_fields(line, separator);
+}
+
+std::vector<std::string> sensor_fields(const std::string& line) {
+  std::vector<std::string> fields;
+  const std::string text = trimmed(line);
+  if (text.empty()) return fields;
+  char separator = 0;
+  for (const char c : {'\t', ';', ' ', ','})
+    if (separator == 0 && text.find(c) != std::string::npos) separator = c;
+  // A first field may be empty, as a table's row numbers have no title.
+  for (const auto& field :
+       fields_of(separator == ' ' ? text : line, separator == 0 ? '\t' : separator))
+    fields.push_back(trimmed(field));
+  if (fields.size() > 1 && fields.back().empty()) fields.pop_back();
+  return fields;
 }
 
 std::string trimmed(const std::string& field) {
@@ -192,6 +220,17 @@ bool TableNumbers::parse(const std::string& field, double& value) {
   if (text.empty() || points_) return false;
   commas_ = true;
   return parse_number(text, value);
+}
+
+bool is_value(const std::string& field) {
+  double value = 0;
+  return stands_for_nothing(field) || TableNumbers('\t').parse(field, value);
+}
+
+double TableNumbers::value(const std::string& field, const TablePlace& place) {
+  double read = std::numeric_limits<double>::quiet_NaN();
+  if (!stands_for_nothing(field) && !parse(field, read)) place.fail(complaint(field));
+  return read;
 }
 
 std::string TableNumbers::complaint(const std::string& field) const {

@@ -137,8 +137,7 @@ RawContours read_cartesian(const std::string& path, const ReadOptions& o) {
   RawContours raw{{}, FileAxes{"mm", "right", "up"}};
   ContourFile& file = raw.file;
   file.model_frame = false;
-  std::string line;
-  if (!lines.next_filled(line)) lines.fail("the file is empty");
+  std::string line = lines.first_filled();
   auto fields = split_fields(line, '\t');
   const bool header = names_knots(fields);
   const Layout layout = header ? from_header(fields, o, lines) : without_header(fields, lines);

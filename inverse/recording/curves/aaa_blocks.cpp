@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "inverse/recording/base/confidence.hpp"
 #include "inverse/recording/base/named_curve.hpp"
 #include "inverse/recording/curves/aaa_row.hpp"
 
@@ -181,6 +182,21 @@ double least_confidence(const std::vector<std::vector<AaaKnot>>& rows) {
   return low_confidence * (most > 1 ? 100 : 1);
 }
 
+/// Knots that the tracker trusts less than usual count less.
+void widen(std::vector<std::vector<AaaKnot>>& rows, double least) {
+  std::vector<double> seen;
+  for (const auto& row : rows)
+    for (const AaaKnot& knot : row)
+      if (knot.confidence && *knot.confidence >= least) seen.push_back(*knot.confidence);
+  if (seen.empty()) return;
+  const auto middle = seen.begin() + long(seen.size() / 2);
+  std::nth_element(seen.begin(), middle, seen.end());
+  for (auto& row : rows)
+    for (AaaKnot& knot : row)
+      if (knot.confidence && *knot.confidence >= least)
+        knot.widening = widening_by_confidence(*knot.confidence, *middle);
+}
+
 }  // namespace
 
 RawContours read_aaa_blocks(const std::string& path, const ReadOptions& o) {
@@ -188,8 +204,7 @@ RawContours read_aaa_blocks(const std::string& path, const ReadOptions& o) {
   RawContours raw{{}, FileAxes{"mm", "right", "up"}};
   auto& frames = raw.file.frames;
   raw.file.model_frame = false;
-  std::string line;
-  if (!lines.next_filled(line)) lines.fail("the file is empty");
+  std::string line = lines.first_filled();
   const Layout l = layout_of(split_fields(line, '\t'), o, lines);
   TableNumbers numbers('\t');
   std::vector<std::vector<AaaKnot>> rows;
@@ -201,6 +216,7 @@ RawContours read_aaa_blocks(const std::string& path, const ReadOptions& o) {
   }
   if (frames.empty()) lines.fail("the file has no data row");
   const double least = least_confidence(rows);
+  widen(rows, least);
   AaaLosses losses;
   for (size_t k = 0; k < frames.size(); ++k)
     add_knots(frames[k], rows[k], least, o.role == "tongue", losses);

@@ -78,8 +78,11 @@ void add_knots(ContourFrame& frame, const std::vector<AaaKnot>& knots, double le
   for (const AaaKnot& knot : knots)
     if (!knot.confidence || *knot.confidence >= least) sure.push_back(knot);
   const auto kept = tongue ? without_far(sure) : sure;
-  for (const AaaKnot& knot : kept)
-    frame.points.push_back({{knot.x, not_given, knot.y}, 0, "curve"});
+  for (const AaaKnot& knot : kept) {
+    ContourPoint& point = frame.points.emplace_back();
+    point.position = {knot.x, not_given, knot.y}, point.kind = "curve";
+    point.widening = knot.widening;
+  }
   const size_t unsure = knots.size() - sure.size(), far = sure.size() - kept.size();
   losses.knots += int(knots.size()), losses.unsure += int(unsure), losses.far += int(far);
   losses.far_frames += far > 0;

@@ -25,6 +25,7 @@ ContourFrame aaa_frame(int number, const AaaColumns& columns,
 struct AaaKnot {
   double x = 0, y = 0;  // [mm]
   std::optional<double> confidence;
+  double widening = 1;  // of the noise, by the confidence
 };
 
 /// Counts of what was left out of a file, for its remarks.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inverse/recording/base/confidence.hpp"
 #include "inverse/recording/base/frame_rows.hpp"
 #include "inverse/recording/curves/column_roles.hpp"
 
@@ -71,8 +72,7 @@ class Reader {
  public:
   Reader(const std::string& path, const ReadOptions& o)
       : lines_(path), numbers_(' '), rows_(lines_) {
-    std::string line;
-    if (!lines_.next_filled(line)) lines_.fail("the file is empty; expected a header line");
+    std::string line = lines_.first_filled();
     separator_ = separator_of(line);
     numbers_ = TableNumbers(separator_);
     titles_ = fields_of(line, separator_);
@@ -87,7 +87,6 @@ class Reader {
     witnesses_.resize(roles_.others.size());
     while (lines_.next_filled(line)) read_row(fields_of(line, separator_));
     end_frame();
-    if (rows_.empty()) lines_.fail("the file has a header but no row");
   }
 
   RawContours contours(const ReadOptions& o) {
@@ -172,6 +171,7 @@ class Reader {
     if (is_missing(text("x")) && is_missing(text("y"))) return;
     const double x = number("x"), y = number("y");
     ++all_;
+    double widening = 1;
     if (roles_.has("likelihood") && !is_missing(text("likelihood"))) {
       const double p = number("likelihood");
       if (p < 0 || p > 1)
@@ -181,8 +181,10 @@ class Reader {
         ++unsure_;
         return;
       }
+      widening = widening_by_likelihood(p);
     }
-    frame.points.push_back({{x, not_given, y}, 0, "curve"});
+    ContourPoint& point = frame.points.emplace_back();
+    point.position = {x, not_given, y}, point.kind = "curve", point.widening = widening;
   }
 
   void begin_row(const std::vector<std::string>& fields, size_t more, const RowFrame& row) {

@@ -93,8 +93,7 @@ void count(FrameRows& frames, const Row& row, const ContourPoint& point) {
 
 RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
-  std::string line;
-  if (!lines.next_filled(line)) lines.fail("the file is empty; expected a header line");
+  std::string line = lines.first_filled();
   const char separator = separator_of(line);
   const auto header = fields_of(line, separator);
   const Columns column = columns_of(header, lines);
@@ -114,7 +113,6 @@ RawContours read(const std::string& path, const ReadOptions&) {
     frame.points.push_back(point_of(row));
     count(frames, row, frame.points.back());
   }
-  if (frames.empty()) lines.fail("the file has a header but no point");
   RawContours raw;
   raw.file.frames = frames.take();
   if (numbers.has_commas()) raw.file.remarks.push_back("numbers have decimal commas");

@@ -46,8 +46,7 @@ Layout layout_of(const std::vector<std::string>& header, const TableLines& lines
 
 RawContours read(const std::string& path, const ReadOptions&) {
   TableLines lines(path);
-  std::string line;
-  if (!lines.next_filled(line)) lines.fail("the file is empty; expected a header line");
+  std::string line = lines.first_filled();
   const auto header = split_fields(line, '\t');
   const Layout l = layout_of(header, lines);
   RawContours raw{{}, FileAxes{l.millimetres ? "mm" : "px", "", l.millimetres ? "" : "down"}};
@@ -82,7 +81,6 @@ RawContours read(const std::string& path, const ReadOptions&) {
       frame.points.push_back({{x, not_given, y}, 0, "curve"});
     }
   }
-  if (frames.empty()) lines.fail("the file has a header but no point");
   raw.file.frames = frames.take();
   if (numbers.has_commas()) raw.file.remarks.push_back("numbers have decimal commas");
   return raw;

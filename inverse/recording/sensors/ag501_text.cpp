@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "inverse/recording/base/sensor_text.hpp"
-#include "inverse/recording/sensors/sensor_channels.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/samples/sensor_channels.hpp"
 
 namespace genio {
 namespace {
@@ -72,7 +72,7 @@ RawContours read(const std::string& path, const ReadOptions& o) {
   TableLines lines(path);
   Layout layout;
   SensorTable table;
-  SensorNumbers number;
+  TableNumbers numbers('\t');
   bool titled = false;
   for (std::string line; lines.next(line);) {
     auto fields = sensor_fields(line);
@@ -91,13 +91,12 @@ RawContours read(const std::string& path, const ReadOptions& o) {
     auto& row = table.samples.emplace_back();
     auto& rms = table.rms.emplace_back();
     for (const Channel& c : layout.channels) {
-      const double x = number(fields[c.x], lines), y = number(fields[c.y], lines),
-                   z = number(fields[c.z], lines);
+      const double x = numbers.value(fields[c.x], lines), y = numbers.value(fields[c.y], lines),
+                   z = numbers.value(fields[c.z], lines);
       row.push_back(sensor_position(x, y, z));
-      rms.push_back(c.rms == none ? 0 : number(fields[c.rms], lines));
+      rms.push_back(c.rms == none ? 0 : numbers.value(fields[c.rms], lines));
     }
   }
-  if (table.samples.empty()) lines.fail("the file has no sample");
   return sensor_frames(path, std::move(table), o);
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "inverse/recording/sensors/sensor_channels.hpp"
+#include "inverse/recording/samples/sensor_channels.hpp"
 
 namespace genio {
 namespace {

@@ -3,6 +3,7 @@
 #include "inverse/recording/sensors/ag501_text.hpp"
 #include "inverse/recording/sensors/ag50x.hpp"
 #include "inverse/recording/sensors/est_track.hpp"
+#include "inverse/recording/sensors/mview.hpp"
 #include "inverse/recording/sensors/ndi_wave.hpp"
 #include "inverse/recording/sensors/ssff.hpp"
 #include "inverse/recording/sensors/vtl_ema.hpp"
@@ -12,8 +13,8 @@ namespace genio {
 
 const std::vector<ContourFormat>& sensor_formats() {
   static const std::vector<ContourFormat> formats = {
-      ssff_format(),    est_track_format(), ag50x_format(), ndi_wave_format(),
-      vtl_ema_format(), xrmb_format(),      mocha_format(), ag501_text_format(),
+      ssff_format(),    mview_format(), est_track_format(), ag50x_format(),      ndi_wave_format(),
+      vtl_ema_format(), xrmb_format(),  mocha_format(),     ag501_text_format(),
   };
   return formats;
 }

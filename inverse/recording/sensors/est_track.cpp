@@ -7,8 +7,8 @@
 #include <cstring>
 #include <sstream>
 
-#include "inverse/recording/base/sensor_text.hpp"
-#include "inverse/recording/sensors/sensor_channels.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/samples/sensor_channels.hpp"
 
 namespace genio {
 namespace {
@@ -94,14 +94,14 @@ void read_binary(SensorTable& table, const SensorChannels& sensors, const Header
 
 void read_rows(SensorTable& table, const SensorChannels& sensors, TableLines& lines, size_t width,
                double scale) {
-  SensorNumbers number;
+  TableNumbers numbers('\t');
   for (std::string line; lines.next(line);) {
     const auto fields = sensor_fields(line);
     if (fields.empty()) continue;
     std::vector<double> v;
     for (const auto& field : fields) {  // the time and the flag stand between tabs, the rest not
       std::istringstream words(field);
-      for (std::string word; words >> word;) v.push_back(number(word, lines));
+      for (std::string word; words >> word;) v.push_back(numbers.value(word, lines));
     }
     if (v.size() != width)
       lines.fail(
@@ -123,7 +123,6 @@ double unit_of(const SensorTable& table) {
 void check(const SensorTable& table, const std::string& path) {
   if (table.names.empty())
     throw InputError(path + ": no two of its channels are named x, y or z of one sensor");
-  if (table.samples.empty()) throw InputError(path + ": has no sample");
 }
 
 RawContours read(const std::string& path, const ReadOptions& o) {

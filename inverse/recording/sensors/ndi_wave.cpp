@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "inverse/recording/base/sensor_text.hpp"
-#include "inverse/recording/sensors/sensor_channels.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/samples/sensor_channels.hpp"
 
 namespace genio {
 namespace {
@@ -25,14 +25,14 @@ RawContours read(const std::string& path, const ReadOptions& o) {
     }
   if (first.empty())
     lines.fail("expected Wav Time, then NAME Frame State Q0 Qx Qy Qz Tx Ty Tz a sensor");
-  SensorNumbers number;
+  TableNumbers numbers('\t');
   int unseen = 0;
   while (lines.next(line)) {
     if (trimmed(line).empty()) continue;
     const auto fields = sensor_fields(line);
     if (fields.size() > titles.size() || fields.size() < first.back() + width)
       lines.fail(fmt::format("{} fields; the header has {}", fields.size(), titles.size()));
-    const double time = number(fields[0], lines);
+    const double time = numbers.value(fields[0], lines);
     if (!(time == time)) lines.fail("no time in the first column");
     table.times_s.push_back(time);
     auto& row = table.samples.emplace_back();
@@ -41,11 +41,10 @@ RawContours read(const std::string& path, const ReadOptions& o) {
       unseen += !seen;
       const double nan = std::numeric_limits<double>::quiet_NaN();
       double v[3] = {nan, nan, nan};
-      for (size_t i = 0; seen && i < 3; ++i) v[i] = number(fields[k + position + i], lines);
+      for (size_t i = 0; seen && i < 3; ++i) v[i] = numbers.value(fields[k + position + i], lines);
       row.push_back(sensor_position(v[0], v[1], v[2]));
     }
   }
-  if (table.samples.empty()) lines.fail("the file has no sample");
   if (unseen > 0)
     table.remarks.push_back(fmt::format("{} of {} values left out: their State is not OK", unseen,
                                         first.size() * table.samples.size()));

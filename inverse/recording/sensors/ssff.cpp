@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "inverse/recording/base/table_text.hpp"
-#include "inverse/recording/sensors/sensor_channels.hpp"
+#include "inverse/recording/samples/sensor_channels.hpp"
 
 namespace genio {
 namespace {
@@ -110,7 +110,6 @@ Take read_one(const std::string& path) {
         values.push_back(number(bytes.data() + at, c));
     take.table.samples.push_back(sensors.positions(values));
   }
-  if (take.table.samples.empty()) throw InputError(path + ": has no record");
   if (const size_t rest = (bytes.size() - h.size) % h.record; rest != 0)
     take.table.remarks.push_back(fmt::format(
         "{} is cut short: {} whole records are read; the last {} bytes are no whole record of {}",

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "inverse/recording/base/sensor_text.hpp"
-#include "inverse/recording/sensors/sensor_channels.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/samples/sensor_channels.hpp"
 
 namespace genio {
 namespace {
@@ -21,19 +21,18 @@ RawContours read(const std::string& path, const ReadOptions& o) {
   if (sensors.names().empty()) lines.fail("expected time[s] TB-x[cm] TB-y[cm] ...");
   SensorTable table{sensors.names(), {}};
   table.axes = {"cm", "right", "up"};
-  SensorNumbers number;
+  TableNumbers numbers('\t');
   while (lines.next(line)) {
     const auto fields = sensor_fields(line);
     if (fields.empty() || fields[0].starts_with('#')) continue;
     if (fields.size() != titles.size())
       lines.fail(fmt::format("{} fields; the header has {}", fields.size(), titles.size()));
     std::vector<double> v;
-    for (const auto& field : fields) v.push_back(number(field, lines));
+    for (const auto& field : fields) v.push_back(numbers.value(field, lines));
     if (!std::isfinite(v[0])) lines.fail("no time in the first column");
     table.times_s.push_back(v[0]);
     table.samples.push_back(sensors.positions(v));
   }
-  if (table.samples.empty()) lines.fail("the file has no sample");
   return sensor_frames(path, std::move(table), o);
 }
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "inverse/recording/base/sensor_text.hpp"
-#include "inverse/recording/sensors/sensor_channels.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/samples/sensor_channels.hpp"
 
 namespace genio {
 namespace {
@@ -22,24 +22,23 @@ RawContours read(const std::string& path, const ReadOptions& o) {
   TableLines lines(path);
   SensorTable table{{pellets.begin(), pellets.end()}, {}};
   table.axes = axes();
-  SensorNumbers number;
+  TableNumbers numbers('\t');
   for (std::string line; lines.next(line);) {
     const auto fields = sensor_fields(line);
     if (fields.empty()) continue;
     if (fields.size() != columns)
       lines.fail(fmt::format("{} fields; expected {}: the time and 8 pellets' x and y",
                              fields.size(), columns));
-    const double time = number(fields[0], lines);
+    const double time = numbers.value(fields[0], lines);
     if (!std::isfinite(time)) lines.fail("no time in the first column");
     table.times_s.push_back(1e-6 * time);
     auto& row = table.samples.emplace_back();
     for (size_t k = 1; k < columns; k += 2) {
-      const double x = number(fields[k], lines), y = number(fields[k + 1], lines);
+      const double x = numbers.value(fields[k], lines), y = numbers.value(fields[k + 1], lines);
       const bool seen = x != missing && y != missing;
       row.push_back(sensor_position(seen ? x : std::nan(""), 0, y));
     }
   }
-  if (table.samples.empty()) lines.fail("the file has no sample");
   return sensor_frames(path, std::move(table), o);
 }
 
@@ -60,13 +59,13 @@ RawContours read_palate(const std::string& path, const ReadOptions&) {
   raw.file.model_frame = false;
   ContourFrame frame;
   frame.number = 1;
-  SensorNumbers number;
+  TableNumbers numbers('\t');
   for (std::string line; lines.next(line);) {
     const auto fields = sensor_fields(line);
     if (fields.empty()) continue;
     if (fields.size() != 2)
       lines.fail(fmt::format("{} fields; expected x and y in micrometres", fields.size()));
-    const double x = number(fields[0], lines), y = number(fields[1], lines);
+    const double x = numbers.value(fields[0], lines), y = numbers.value(fields[1], lines);
     if (x == missing || y == missing || !std::isfinite(x + y)) continue;
     frame.points.push_back({Vec3(x, not_given, y), 0, "curve"});
   }

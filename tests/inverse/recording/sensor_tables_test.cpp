@@ -36,11 +36,11 @@ TEST_F(Formats, DecimalCommasAreReadAndNeverMixedWithPoints) {
   EXPECT_NEAR(std::abs(f.frames[0].points[0].position[2]), 0.08795, 1e-12);
   EXPECT_NE(
       error(write("m.txt", header + "-93,22\t0.3\t87,95\t0\t0\t3,1\t0\n"), sensors({{"1", "tip"}}))
-          .find("m.txt:2: '0.3': the table has decimal commas and decimal points"),
+          .find("m.txt:2: '0.3': has a decimal point, and numbers before it have decimal commas"),
       std::string::npos);
   EXPECT_NE(
       error(write("w.txt", header + "-93,22\tword\t87,95\t0\t0\t3,1\t0\n"), sensors({{"1", "tip"}}))
-          .find("w.txt:2: 'word': expected a number"),
+          .find("w.txt:2: 'word' is not a finite number"),
       std::string::npos);
 }
 

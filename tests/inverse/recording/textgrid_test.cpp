@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "forward/base/types.hpp"
-#include "inverse/recording/base/unicode_text.hpp"
+#include "inverse/recording/base/unicode.hpp"
 
 namespace genio {
 namespace {

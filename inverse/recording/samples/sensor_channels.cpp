@@ -1,4 +1,4 @@
-#include "inverse/recording/sensors/sensor_channels.hpp"
+#include "inverse/recording/samples/sensor_channels.hpp"
 
 #include <algorithm>
 #include <cctype>

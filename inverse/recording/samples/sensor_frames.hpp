@@ -12,6 +12,8 @@ struct SensorTable {
   double rate_hz = 0;
   std::vector<double> times_s = {};           ///< one a sample; empty: by the rate
   std::vector<std::vector<double>> rms = {};  ///< the device's residual, as samples; may be empty
+  std::vector<std::string> labels = {};       ///< one a sample; may be empty
+  std::string recording = {};                 ///< which take, where the file says it
   FileAxes axes = {"mm", "right", "up"};
   std::vector<std::string> remarks = {};
 };

@@ -1,4 +1,4 @@
-#include "inverse/recording/sensors/bad_samples.hpp"
+#include "inverse/recording/samples/bad_samples.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "inverse/recording/sensors/sensor_frames.hpp"
+#include "inverse/recording/samples/sensor_frames.hpp"
 
 namespace genio {
 

@@ -1,4 +1,4 @@
-#include "inverse/recording/sensors/sensor_frames.hpp"
+#include "inverse/recording/samples/sensor_frames.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "inverse/recording/sensors/bad_samples.hpp"
+#include "inverse/recording/base/confidence.hpp"
+#include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/samples/bad_samples.hpp"
 
 namespace genio {
 namespace {
@@ -26,9 +28,31 @@ std::string sensor_list(const SensorTable& table) {
   return list;
 }
 
+/// What sensors on a plate between the teeth are called: OS, MS (the incisors' and the molars'),
+/// BP.
+bool is_on_plate(const std::string& name) {
+  const std::string text = lower_case(name);
+  return text == "os" || text == "ms" || text.starts_with("bp") || text.starts_with("bite") ||
+         text.starts_with("occl");
+}
+
+/// With the sensors of a bite plane by their names, where the caller gives none.
+ReadOptions with_plate(const SensorTable& table, ReadOptions o) {
+  if (o.role != "bite plane" || !o.sensors.empty()) return o;
+  for (const std::string& name : table.names)
+    if (is_on_plate(name)) o.sensors[name] = o.role;
+  return o;
+}
+
 }  // namespace
 
-RawContours sensor_frames(const std::string& path, SensorTable table, const ReadOptions& o) {
+RawContours sensor_frames(const std::string& path, SensorTable table, const ReadOptions& options) {
+  const ReadOptions o = with_plate(table, options);
+  if (table.samples.empty()) throw InputError(path + ": the file has no sample");
+  if (o.sensors.empty() && o.role == "bite plane")
+    throw InputError(fmt::format(
+        "{}: say which of its sensors lie on the bite plane, --bite-plane-sensors OS,MS; it has{}",
+        path, sensor_list(table)));
   if (o.sensors.empty())
     throw InputError(fmt::format(
         "{}: say what its sensors are stuck to, --sensors 5=tip+3mm,3=dorsum (tip, blade, "
@@ -44,7 +68,7 @@ RawContours sensor_frames(const std::string& path, SensorTable table, const Read
   }
   const double rate = o.rate_hz > 0 ? o.rate_hz : table.rate_hz;
   for (const auto& [c, what] : used) {
-    drop_bad_samples(table, c, what != "palate");
+    drop_bad_samples(table, c, what != "palate" && what != "bite plane");
     if (std::none_of(table.samples.begin(), table.samples.end(),
                      [&, c = c](const auto& row) { return row[c].allFinite(); }))
       table.remarks.push_back(fmt::format("sensor {} ({}) has no value", table.names[c], what));
@@ -56,13 +80,16 @@ RawContours sensor_frames(const std::string& path, SensorTable table, const Read
     raw.file.remarks.push_back("no sampling rate in the file: times are 0 (--rate-hz)");
   for (size_t s = 0; s < table.samples.size(); ++s) {
     ContourFrame& frame = raw.file.frames.emplace_back();
-    frame.number = int(s) + 1;
+    frame.number = int(s) + 1, frame.recording = table.recording;
+    if (s < table.labels.size()) frame.label = table.labels[s];
     if (s < table.times_s.size()) frame.time_s = table.times_s[s];
     else if (rate > 0) frame.time_s = double(s) / rate;
     for (const auto& [c, what] : used) {
       const Vec3& p = table.samples[s][c];
       if (!p.allFinite()) continue;
-      frame.points.push_back({p, 0, what});
+      ContourPoint& point = frame.points.emplace_back();
+      point.position = p, point.kind = what;
+      if (s < table.rms.size()) point.widening = widening_by_residual(table.rms[s][c]);
     }
     if (frame.points.empty()) frame.note = "no sensor has a value";
   }

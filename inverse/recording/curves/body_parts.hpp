@@ -1,0 +1,49 @@
+#pragma once
+// DeepLabCut's tables once they are columns and rows, whatever file they came from.
+
+#include <functional>
+#include <optional>
+
+#include "inverse/recording/base/contour_format.hpp"
+#include "inverse/recording/base/frame_rows.hpp"
+
+namespace genio {
+
+/// What a column of values is.
+struct BodyPartTitle {
+  std::string part, coordinate;  ///< "tongueTip"; x, y or likelihood
+};
+
+/// The contours of a table: a row a frame, and body parts that are the tongue's points.
+class BodyPartTable {
+ public:
+  /// Throws InputError at `place` where titles are no body parts, or none is the role's.
+  BodyPartTable(const std::vector<BodyPartTitle>& titles, const ReadOptions& options,
+                const TablePlace& place);
+  /// A row of that index: a frame's number, or the path of its image. `value` gives that of a
+  /// column from 0; NaN: missing. Throws InputError at the place.
+  void add_row(const std::string& index, const std::function<double(size_t)>& value);
+  RawContours contours();
+
+ private:
+  struct Part {
+    std::string name;
+    size_t x = 0, y = 0;
+    std::optional<size_t> likelihood;
+  };
+  static std::vector<Part> parts_of(const std::vector<BodyPartTitle>& titles,
+                                    const TablePlace& place);
+  static std::vector<Part> chosen(const std::vector<Part>& all, const ReadOptions& options,
+                                  const TablePlace& place);
+  RowFrame numbered(const std::string& index);
+
+  const TablePlace& place_;
+  ReadOptions options_;
+  std::vector<Part> all_, parts_;
+  FrameRows frames_;
+  int rows_ = 0;
+  bool from_zero_ = false;
+  size_t points_ = 0, unsure_ = 0;
+};
+
+}  // namespace genio
