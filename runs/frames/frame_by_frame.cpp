@@ -27,8 +27,7 @@ Vector recorded_unknowns(const AnswerRecord& answer, const std::vector<Unknown>&
 
 void answer_frames(const Model& model, const std::vector<Frame>& frames,
                    const FrameByFrame& options, const std::optional<AnswerRecord>& before,
-                   const TakeAnswer& take) {
-  InferWorkspace ws(model);
+                   InferWorkspace& ws, const TakeAnswer& take) {
   InferOptions infer = options.frame.infer;
   double last_time = std::nan("");
   for (const Frame& frame : frames) {
@@ -50,6 +49,13 @@ void answer_frames(const Model& model, const std::vector<Frame>& frames,
   }
 }
 
+std::optional<AnswerRecord> answer_before(const std::vector<Frame>& frames,
+                                          const AnswerRecords& known) {
+  if (frames.empty()) return std::nullopt;
+  const auto it = known.find(frames.front().contour.number - 1);
+  return it == known.end() ? std::nullopt : std::optional(it->second);
+}
+
 std::pair<size_t, size_t> run_of_neighbours(size_t items, int k, int count) {
   return {items * size_t(k) / size_t(count), items * size_t(k + 1) / size_t(count)};
 }
@@ -61,11 +67,9 @@ void answer_in_processes(const Model& model, const std::vector<Frame>& frames,
   const auto work = [&](int k, const Send& send) {
     const auto [first, end] = run_of_neighbours(frames.size(), k, count);
     const std::vector<Frame> mine(frames.begin() + long(first), frames.begin() + long(end));
-    std::optional<AnswerRecord> before;
-    if (!mine.empty())
-      if (const auto it = known.find(mine.front().contour.number - 1); it != known.end())
-        before = it->second;
-    answer_frames(model, mine, options, before,
+    const std::optional<AnswerRecord> before = answer_before(mine, known);
+    InferWorkspace ws(model);
+    answer_frames(model, mine, options, before, ws,
                   [&](const ContourFrame& frame, const AnswerView& view, const Positions& shape) {
                     send(message(frame, view, shape));
                   });
