@@ -163,7 +163,7 @@ std::string corpus_text(const Plan& plan, const CorpusResults& results) {
   const FrameCounts c = all_frames(plan, results);
   const Json refused = refused_json(plan);
   std::string text =
-      fmt::format("{} recordings, {} refused; {} frames in {} tasks\nstatus   {}\nverdict  {}\n",
+      fmt::format("{} recordings, {} refused; {} frames, tasks: {}\nstatus   {}\nverdict  {}\n",
                   plan.recordings.size(), refused.size(), c.frames, plan.tasks.size(),
                   words_of_counts(c.status), words_of_counts(c.verdict));
   for (const PlannedRecording& r : plan.recordings)

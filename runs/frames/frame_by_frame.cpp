@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/statics/equilibrium.hpp"
+#include "inverse/prior/base/unknowns.hpp"
 #include "inverse/sequence/chained_prior.hpp"
 
 namespace genio {
@@ -23,6 +25,18 @@ Vector recorded_unknowns(const AnswerRecord& answer, const std::vector<Unknown>&
   return z;
 }
 
+/// Starts the next descent where an earlier answer ended, as if it had just been found: a start
+/// without its shape would be taken for a guess.
+void start_from(const AnswerRecord& answer, const Model& model,
+                const std::vector<Unknown>& unknowns, InferWorkspace& ws, InferOptions& infer) {
+  infer.start = recorded_unknowns(answer, unknowns);
+  if (infer.start.size() == 0) return;
+  const Equilibrium held =
+      solve_equilibrium(model, apply_unknowns(unknowns, infer.start, default_parameters(model)),
+                        model.rest, ws.whole().workspace);
+  if (held) infer.start_shape = held.x;
+}
+
 }  // namespace
 
 void answer_frames(const Model& model, const std::vector<Frame>& frames,
@@ -34,10 +48,11 @@ void answer_frames(const Model& model, const std::vector<Frame>& frames,
     Answer answer;
     if (!frame.target.empty()) {
       Prior prior = options.frame.prior;
-      if (&frame == &frames.front() && before)
-        infer.start = recorded_unknowns(
-            *before,
-            unknowns_of(model, prior, infer.bilateral.value_or(frame.target.midsagittal())));
+      if (&frame == &frames.front() && before) {
+        const bool bilateral = infer.bilateral.value_or(frame.target.midsagittal());
+        start_from(*before, model, unknowns_of(model, prior, bilateral), ws, infer);
+        last_time = before->time_s;
+      }
       if (options.walks && infer.start.size() > 0)
         prior.before = Prior::Before{infer.start, walk_sd(prior, last_time, frame.contour.time_s)};
       answer = infer_from_starts(model, frame.target, prior, ws, infer, options.frame.starts);
