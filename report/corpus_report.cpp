@@ -7,8 +7,8 @@
 #include <set>
 
 #include "forward/base/text_file.hpp"
-#include "report/csv_text.hpp"
 #include "report/run_summary.hpp"
+#include "runs/results/csv_text.hpp"
 
 namespace genio {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "forward/base/text_file.hpp"
-#include "report/csv_text.hpp"
 #include "report/plot.hpp"
 #include "report/svg.hpp"
+#include "runs/results/csv_text.hpp"
 
 namespace genio {
 namespace {

@@ -139,6 +139,7 @@ int run(const CorpusCommand& o) {
   if (o.merge) return merge(o, read_plan(o.out));
   if (o.manifest.empty())
     throw InputError("corpus: a manifest is needed, as in genio corpus manifest.csv --out DIR");
+  check_sbatch_options(o.sbatch);
   Models models;
   const Manifest manifest = read_manifest(o.manifest, inversion_of);
   const Plan plan = plan_corpus(manifest, o.out, o.planning, inversion_of, models, reading(o));
@@ -180,7 +181,7 @@ Runner add_corpus(Options& options) {
   options.flag("--json", o->json, "One JSON object on standard output");
   options.flag("--quiet", o->quiet, "No progress");
   options.footer(
-      "Example: genio corpus manifest.csv --out corpus --threads 8\n"
+      "Example: genio corpus data/examples/corpus.csv --out corpus --threads 2\n"
       "         genio corpus manifest.csv --out corpus --slurm --sbatch-option=--time=1:00:00");
   return [o] { return run(*o); };
 }

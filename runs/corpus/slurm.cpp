@@ -86,8 +86,11 @@ std::string array_ranges(const std::vector<int>& tasks) {
   return text;
 }
 
+void check_sbatch_options(const std::vector<std::string>& options) {
+  for (const std::string& option : options) check_option(option);
+}
+
 void write_scripts(const SlurmJob& job) {
-  for (const std::string& option : job.options) check_option(option);
   make_folder(job.out + "/slurm");
   const std::string genio = shell_word(job.program) + " corpus --out " + shell_word(job.out);
   const std::string limit = job.at_once > 0 ? fmt::format("%{}", job.at_once) : "";

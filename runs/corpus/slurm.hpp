@@ -16,8 +16,10 @@ struct SlurmJob {
 /// "0-3,7,9-10".
 std::string array_ranges(const std::vector<int>& tasks);
 
-/// Writes OUT/slurm/tasks.sh, the array, and OUT/slurm/merge.sh, which follows it. Throws
-/// InputError for an option that is the corpus's own.
+/// Throws InputError for what is no option of sbatch, and for one that is the corpus's own.
+void check_sbatch_options(const std::vector<std::string>& options);
+
+/// Writes OUT/slurm/tasks.sh, the array, and OUT/slurm/merge.sh, which follows it.
 void write_scripts(const SlurmJob& job);
 
 struct SubmittedJobs {

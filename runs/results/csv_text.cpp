@@ -1,4 +1,4 @@
-#include "report/csv_text.hpp"
+#include "runs/results/csv_text.hpp"
 
 #include <fmt/format.h>
 
