@@ -25,7 +25,7 @@ printf 'recording,palate,speaker\nlong.csv,,S1\ncontours.tsv,palate.tsv,S2\n' >m
 "$genio" corpus manifest.csv --out here --share 6 --threads 2 --quiet >/dev/null
 # The folder's name has what shells and Slurm take apart.
 "$genio" corpus manifest.csv --out "cluster 1%a" --share 6 --slurm --at-once 2 --sbatch-option=--time=10 --json >submitted
-grep -q '"tasks":\[0,1,2\]' submitted || { cat submitted; fail "not all tasks were submitted"; }
+grep -q '"tasks":\[0,1\]' submitted || { cat submitted; fail "not all tasks were submitted"; }
 array=$(sed 's/.*"array_job":"\([0-9]*\)".*/\1/' submitted)
 grep -qx '#SBATCH --array=0-1%2' "cluster 1%a/slurm/tasks.sh" || fail "the array is another"
 # One task is killed from outside once it has given an answer, and one is put back by Slurm.
