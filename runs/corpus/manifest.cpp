@@ -11,6 +11,7 @@
 
 #include "forward/base/nearest_name.hpp"
 #include "inverse/recording/base/table_text.hpp"
+#include "inverse/recording/sensors/ssff.hpp"
 
 namespace genio {
 namespace {
@@ -102,9 +103,14 @@ void check_files(const InversionOptions& o,
     std::error_code none;
     if (!path.empty() && !fs::exists(path, none)) fail(column, path + ": no such file");
   };
-  check("recording", o.measured.target), check("palate", o.measured.palate);
+  for (const std::string& file : joined_paths(o.measured.target)) check("recording", file);
+  check("palate", o.measured.palate);
   check("textgrid", o.measured.choice.textgrid), check("model", o.model);
   check("options", o.prior);
+}
+
+std::string from_folder(const std::string& folder, const std::string& path) {
+  return (fs::path(folder) / path).lexically_normal().string();
 }
 
 /// "recordings/s1/take 3.tsv" as the name of a folder: "recordings_s1_take_3".
@@ -217,9 +223,15 @@ InversionOptions asked_of(const std::vector<std::string>& words, const std::stri
                           const ReadWords& read) {
   InversionOptions o = read(words);
   check(o);
-  for (std::string* path :
-       {&o.measured.target, &o.measured.palate, &o.measured.choice.textgrid, &o.model, &o.prior})
-    if (!path->empty()) *path = (fs::path(folder) / *path).lexically_normal().string();
+  for (std::string* path : {&o.measured.palate, &o.measured.choice.textgrid, &o.model, &o.prior})
+    if (!path->empty()) *path = from_folder(folder, *path);
+  const std::string whole = from_folder(folder, o.measured.target);
+  std::vector<std::string> files;
+  if (std::error_code none; fs::exists(whole, none)) files = {whole};
+  else
+    for (const std::string& file : joined_paths(o.measured.target))
+      files.push_back(from_folder(folder, file));
+  o.measured.target = fmt::format("{}", fmt::join(files, ","));
   return o;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "inverse/prior/prior_file.hpp"
+#include "inverse/recording/sensors/ssff.hpp"
 
 namespace genio {
 namespace {
@@ -27,6 +28,13 @@ QuestionValue asked_range(const InversionOptions& o) {
   return fmt::format("{} {}", o.measured.choice.frames, fmt::join(o.measured.choice.labels, ","));
 }
 
+/// All files of a target that names several of one take.
+AskedFile asked_target(const std::string& target) {
+  AskedFile asked{target, {}};
+  for (const std::string& path : joined_paths(target)) asked.content += asked_file(path).content;
+  return asked;
+}
+
 }  // namespace
 
 void check(const InversionOptions& o) {
@@ -38,7 +46,7 @@ Question question_of(const InversionOptions& o, double noise) {
   const MeasuredOptions& m = o.measured;
   return {{"genio", GENIO_VERSION},
           {"model", asked_file(o.model)},
-          {"target", asked_file(m.target)},
+          {"target", asked_target(m.target)},
           {"palate", asked_file(m.palate)},
           {"palate_sensor", m.palate_sensor},
           {"textgrid", asked_file(m.choice.textgrid)},

@@ -69,6 +69,14 @@ TEST_F(ManifestOf, PathsStartFromItsFolderAndTheModelIsNamed) {
   EXPECT_EQ(asked_of(m.rows[0].words, m.folder, take).measured.target, folder.path() + "/s1/a.csv");
 }
 
+TEST_F(ManifestOf, FilesOfOneTakeAreFoundEach) {
+  const Manifest m = read("recording\n\"s1/a.csv,a.csv\"\n");
+  EXPECT_EQ(asked_of(m.rows[0].words, m.folder, take).measured.target,
+            folder.path() + "/s1/a.csv," + folder.path() + "/a.csv");
+  EXPECT_NE(refusal("recording\n\"s1/a.csv,none.csv\"\n").find("none.csv: no such file"),
+            std::string::npos);
+}
+
 TEST_F(ManifestOf, NamesOfFoldersDifferAndStayWhenRowsAreAdded) {
   const std::string rows = "recording\ns1/a.csv\ns1/b c.csv\ns1/a.csv\na.csv\n";
   const Manifest before = read(rows), after = read(rows + "s1/../a.csv\n");
