@@ -100,7 +100,8 @@ ArrayRun run_array(const std::string& manifest, const std::string& out, int kill
 using Lines = std::map<std::pair<std::string, int>, AnswerRecord>;
 Lines lines_of(const std::string& out, int& twice) {
   Lines lines;
-  for (const Json& r : read_json(out + "/corpus.json").at("by_recording")) {
+  const Json corpus = read_json(out + "/corpus.json");
+  for (const Json& r : corpus.at("by_recording")) {
     const std::string name = r.at("recording");
     std::ifstream in(out + "/" + name + "/results.jsonl");
     for (std::string line; std::getline(in, line);)
@@ -131,7 +132,9 @@ Json difference(const std::string& one, const std::string& other) {
     exact += answer.forces_N == it->second.forces_N;
   }
   for (const auto& [key, answer] : b) missing += !a.contains(key);
-  return {{"same_to_the_last_digit", exact},
+  if (a.empty()) throw std::runtime_error(one + ": holds no answers to compare");
+  return {{"frames", a.size()},
+          {"same_to_the_last_digit", exact},
           {"different", different},
           {"missing", missing},
           {"twice", twice}};

@@ -66,7 +66,8 @@ std::string submitted(const SlurmJob& job, std::vector<std::string> words) {
         fmt::format("--slurm: {}; submit {}/slurm/tasks.sh, and merge.sh after it, where Slurm is",
                     e.what(), job.out));
   }
-  const std::string line = last_line(end.said), id = line.substr(0, line.find(';'));
+  const std::string line = last_line(end.said);
+  std::string id = line.substr(0, line.find(';'));
   if (end.status != 0 || id.empty() || id.find_first_not_of("0123456789") != std::string::npos)
     throw InputError(fmt::format("--slurm: sbatch: {}", line));
   return id;
