@@ -10,29 +10,21 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "FAILED: $*"; tail -n 20 "$work"/cluster*/slurm/*.log 2>/dev/null; exit 1; }
 ended() {  # until no job is left, requeued ones included
-  for _ in $(seq 300); do
-    [ -z "$(squeue --noheader)" ] && return
-    sleep 0.5
-  done
-  squeue
-  fail "the jobs do not end"
+  while [ -n "$(squeue --noheader)" ]; do sleep 0.3; done
 }
 awk -F, -v OFS=, 'NR==1 {print; next} {r[NR] = $0}
-  END {for (f = 1; f <= 8; ++f) for (k = 2; k <= NR; ++k) {split(r[k], c, ",");
+  END {for (f = 1; f <= 12; ++f) for (k = 2; k <= NR; ++k) {split(r[k], c, ",");
        print f, c[2], c[3], c[4] + 0.05 * f, c[5], c[6]}}' "$source/data/examples/example_shape.csv" >long.csv
 cp "$source"/data/examples/recording/*.tsv .
 printf 'recording,palate,speaker\nlong.csv,,S1\ncontours.tsv,palate.tsv,S2\n' >manifest.csv
-"$genio" corpus manifest.csv --out here --share 6 --threads 2 --quiet >/dev/null
+"$genio" corpus manifest.csv --out here --share 8 --threads 2 --quiet >/dev/null
 # The folder's name has what shells and Slurm take apart.
-"$genio" corpus manifest.csv --out "cluster 1%a" --share 6 --slurm --at-once 2 --sbatch-option=--time=10 --json >submitted
+"$genio" corpus manifest.csv --out "cluster 1%a" --share 8 --slurm --at-once 2 --sbatch-option=--time=10 --json >submitted
 grep -q '"tasks":\[0,1\]' submitted || { cat submitted; fail "not all tasks were submitted"; }
 array=$(sed 's/.*"array_job":"\([0-9]*\)".*/\1/' submitted)
 grep -qx '#SBATCH --array=0-1%2' "cluster 1%a/slurm/tasks.sh" || fail "the array is another"
 # One task is killed from outside once it has given an answer, and one is put back by Slurm.
-for _ in $(seq 300); do
-  [ -s "cluster 1%a/tasks/0000/long/results.jsonl" ] && break
-  sleep 0.1
-done
+while [ -n "$(squeue --noheader)" ] && [ ! -s "cluster 1%a/tasks/0000/long/results.jsonl" ]; do sleep 0.05; done
 for pid in $(pgrep -x genio); do  # in this test's own namespace of processes
   tr '\0' ' ' <"/proc/$pid/cmdline" | grep -q -- '--task 0 ' && kill -9 "$pid"
 done

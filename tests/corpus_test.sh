@@ -20,7 +20,7 @@ repeat() {
          print f, c[2], c[3], c[4] + by * f, c[5], c[6]}}' "$source/data/examples/example_shape.csv"
 }
 mkdir s1 s2
-repeat 6 0.05 >s1/long.csv
+repeat 12 0.05 >s1/long.csv
 cp "$source"/data/examples/recording/*.tsv s2
 head -c 300 s2/contours.tsv >s2/broken.tsv
 cat >manifest.csv <<CSV
@@ -45,48 +45,45 @@ expect 2 "bad.csv:1: no such column: 'palete'; did you mean palate?" "$genio" co
 expect 2 'a manifest is needed' "$genio" corpus --out bad
 expect 2 'expected the folder of a corpus' "$genio" corpus --task 0 --out bad
 # One worker is killed in the middle: the task is named, the rest is done.
-"$genio" corpus manifest.csv --out corpus --share 4 >out 2>err & main=$!
-for _ in $(seq 150); do
-  [ -s corpus/tasks/0000/s1_long/results.jsonl ] && break
-  sleep 0.1
-done
+"$genio" corpus manifest.csv --out corpus --share 8 >out 2>err & main=$!
+while kill -0 $main 2>/dev/null && [ ! -s corpus/tasks/0000/s1_long/results.jsonl ]; do sleep 0.05; done
 [ -s corpus/tasks/0000/s1_long/results.jsonl ] || { cat out err; fail "task 0 gives no line"; }
 kill -9 "$(grep -ls "^PPid:[[:space:]]*$main\$" /proc/[0-9]*/status | cut -d/ -f3)"
 status=0; wait $main || status=$?
 [ $status -eq 1 ] || fail "a killed task ends in status $status"
 grep -q 'failed   task 0: its process was killed by signal 9' out || { cat out err; fail "the killed task is not named"; }
 grep -q '"reason": "its process was killed' corpus/corpus.json || fail "corpus.json does not name the killed task"
-grep -q '^s1_long,s1/long.csv,S1,4,,,,open,' corpus/results.csv || fail "an open frame has no row"
+grep -q '^s1_long,s1/long.csv,S1,7,,,,open,' corpus/results.csv || fail "an open frame has no row"
 before=$(head -n 1 corpus/tasks/0000/s1_long/results.jsonl)
 # The rest is made good, and nothing is there twice.
 expect 1 'refused  s2_broken' "$genio" corpus manifest.csv --out corpus --resume --threads 2
 [ "$(head -n 1 corpus/tasks/0000/s1_long/results.jsonl)" = "$before" ] || fail "a known answer was computed again"
 cut -d, -f1,4 corpus/results.csv | tail -n +2 >keys
-printf 's1_long,%d\n' 1 2 3 4 5 6 >expected; printf 's2_contours,%d\n' 2 3 >>expected
+printf 's1_long,%d\n' $(seq 12) >expected; printf 's2_contours,%d\n' 2 3 >>expected
 cmp keys expected || fail "results.csv has other frames"
-[ "$(wc -l <corpus/s1_long/results.jsonl)" -eq 6 ] && [ -s corpus/s1_long/frame00006.png ] &&
+[ "$(wc -l <corpus/s1_long/results.jsonl)" -eq 12 ] && [ -s corpus/s1_long/frame00012.png ] &&
   [ -s corpus/s1_long/summary.png ] || fail "corpus/s1_long"
 grep -q '"speaker":"S1"' corpus/s1_long/results.jsonl || fail "the speaker is not in the answers"
 # Another run gives the same, whatever was killed.
-expect 1 'refused' "$genio" corpus manifest.csv --out again --share 4 --json
+expect 1 'refused' "$genio" corpus manifest.csv --out again --share 8 --json
 "$source/tests/same_corpus.py" corpus/results.csv again/results.csv
 # New rows are read, and the old ones are not computed again.
 repeat 1 -0.2 >s1/short.csv
 echo 's1/short.csv,,S1,' >>manifest.csv
 cp corpus/s1_long/results.jsonl known
-expect 1 '4 recordings, 1 refused; 9 frames' "$genio" corpus manifest.csv --out corpus --resume
+expect 1 '4 recordings, 1 refused; 15 frames' "$genio" corpus manifest.csv --out corpus --resume
 cmp known corpus/s1_long/results.jsonl || fail "known answers changed"
 # A changed option, and a changed recording, are noticed, by the run and by a task.
 sed -i 's/^s1\/long.csv,,S1,$/s1\/long.csv,,S1,--noise-mm 1/' manifest.csv
 expect 2 'was planned with noise_mm = 0.5, not 1' "$genio" corpus manifest.csv --out corpus --resume
 sed -i 's/--noise-mm 1//' manifest.csv
-repeat 6 0.1 >s1/long.csv
+repeat 12 0.1 >s1/long.csv
 expect 2 'manifest.csv:2: s1_long was planned with target' "$genio" corpus manifest.csv --out corpus --resume
 rm corpus/tasks/0000/s1_long/results.jsonl
 expect 2 'whose content is not that of' "$genio" corpus --task 0 --out corpus
 expect 1 'failed   task 0, s1_long' "$genio" corpus --merge --out corpus
 rm -r corpus/s1_long
-expect 1 '9 frames' "$genio" corpus manifest.csv --out corpus --resume
+expect 1 '15 frames' "$genio" corpus manifest.csv --out corpus --resume
 [ "$(cut -d, -f1,4 corpus/results.csv | sort | uniq -d)" = "" ] || fail "a frame is there twice"
 expect 2 'holds a corpus already' "$genio" corpus manifest.csv --out corpus
 echo "a corpus on this machine: as documented"
