@@ -5,6 +5,7 @@
 
 #include "cli/command_line/command_line.hpp"
 #include "cli/subcommands/bench.hpp"
+#include "cli/subcommands/corpus.hpp"
 #include "cli/subcommands/discover.hpp"
 #include "cli/subcommands/formats.hpp"
 #include "cli/subcommands/forward.hpp"
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
          {"invert", "Muscle forces from measured shapes in a file", add_invert},
          {"formats", "Files of measured shapes that are read", add_formats},
          {"merge", "Runs over several ranges of frames as one", add_merge},
+         {"corpus", "Every recording of a table, here or on a cluster", add_corpus},
          {"discover", "What a model misses, from measured shapes under several conditions",
           add_discover},
          {"serve", "Answer shape requests over LCM", add_serve},

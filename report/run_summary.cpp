@@ -9,6 +9,7 @@
 #include "forward/base/text_file.hpp"
 #include "report/plot.hpp"
 #include "report/svg.hpp"
+#include "runs/results/csv_text.hpp"
 
 namespace genio {
 namespace {
@@ -26,19 +27,6 @@ double quantile(std::vector<double> v, double p) {
   if (v.empty()) return 0;
   std::sort(v.begin(), v.end());
   return v[std::min(v.size() - 1, size_t(p * double(v.size())))];
-}
-
-/// In quotes where a comma, a quote or the end of a line stands in it.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-/// Empty where it is not known.
-std::string csv_number(double number, int digits) {
-  return std::isnan(number) ? "" : fmt::format("{:.{}g}", number, digits);
 }
 
 /// 0 where it is not there.

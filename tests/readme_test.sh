@@ -22,7 +22,7 @@ while read -r line; do
   fi
   $line >log 2>&1 </dev/null || { echo "FAILED with status $?: $line"; tail -20 log; failed=1; }
 done < <(awk '/^```/ { code = !code } code && /^genio /' "$source/README.md")
-for file in shape/frame00001.png recording/summary.png smooth/summary.csv moving/commands.csv \
+for file in shape/frame00001.png recording/summary.png smooth/summary.csv moving/commands.csv corpus/results.csv \
             forward/shape.vtu motion/motion.pvd found/discovery.html found/model/model.toml; do
   [ -s "out/$file" ] || { echo "FAILED: no out/$file"; failed=1; }
 done

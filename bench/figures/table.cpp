@@ -9,6 +9,7 @@
 #include "bench/experiments/recordings/recordings.hpp"
 #include "bench/experiments/seed_suite.hpp"
 #include "bench/experiments/ultrasound.hpp"
+#include "bench/figures/corpus.hpp"
 #include "bench/figures/discover_bench.hpp"
 #include "bench/figures/forward/dynamic.hpp"
 #include "bench/figures/forward/forward.hpp"
@@ -37,11 +38,12 @@ bool given(const BenchOptions& o, const std::string& name) {
 
 const std::vector<Benchmark>& benchmarks() {
   static const std::vector<Benchmark> all = {
-      forward_bench(),      dynamic_bench(),          robustness_bench(),
-      verification_bench(), inverse_bench(),          reach_bench(),
-      peer_bench(),         gesture_bench(),          discover_bench(),
-      service_bench(),      recordings_bench(),       ultrasound_bench(),
-      grenoble_bench(),     grenoble_gravity_bench(), seed_suite_bench()};
+      forward_bench(),      dynamic_bench(),    robustness_bench(),
+      verification_bench(), inverse_bench(),    reach_bench(),
+      peer_bench(),         gesture_bench(),    discover_bench(),
+      service_bench(),      recordings_bench(), corpus_bench(),
+      ultrasound_bench(),   grenoble_bench(),   grenoble_gravity_bench(),
+      seed_suite_bench()};
   return all;
 }
 

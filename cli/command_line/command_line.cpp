@@ -84,15 +84,18 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// What is wrong with the words of a command line.
+std::string complaint(const CLI::App& app, const std::vector<Declared>& all,
+                      const CLI::ParseError& e) {
+  if (const std::string what = left_over(app, all); !what.empty()) return what;
+  std::string command = "genio";
+  for (const Declared& d : all)
+    if (d.app->parsed()) command += " " + d.app->get_name();
+  return fmt::format("{}; see {} --help", one_line(e.what()), command);
+}
+
 int refuse(const CLI::App& app, const std::vector<Declared>& all, const CLI::ParseError& e) {
-  std::string what = left_over(app, all);
-  if (what.empty()) {
-    std::string command = "genio";
-    for (const Declared& d : all)
-      if (d.app->parsed()) command += " " + d.app->get_name();
-    what = fmt::format("{}; see {} --help", one_line(e.what()), command);
-  }
-  fmt::print(stderr, "genio: {}\n", what);
+  fmt::print(stderr, "genio: {}\n", complaint(app, all, e));
   return bad_input;
 }
 
@@ -163,6 +166,23 @@ int run_command_line(int argc, char** argv, const std::vector<Subcommand>& subco
       return d.run();
     }
   return bad_input;
+}
+
+void read_words(const std::string& subcommand, const std::vector<std::string>& words,
+                const std::function<void(Options&)>& declare_options) {
+  CLI::App app;
+  CLI::App* sub = app.add_subcommand(subcommand);
+  sub->set_help_flag();
+  Options options(*sub);
+  declare_options(options);
+  std::vector<std::string> last_first(words.rbegin(), words.rend());
+  last_first.push_back(subcommand);
+  try {
+    app.parse(std::move(last_first));
+  } catch (const CLI::ParseError& e) {
+    throw InputError(complaint(app, {{sub, options, {}}}, e));
+  }
+  options.check();
 }
 
 }  // namespace genio::cli

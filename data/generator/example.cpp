@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     write_recording(tongue, folder + "/recording");
     write_word(tongue, folder + "/word");
     write_prior(folder + "/prior");
+    write_manifest(folder);
     write_observations(tongue, folder + "/discover");
   } catch (const std::exception& e) {
     std::fprintf(stderr, "genio-make-example: %s\n", e.what());

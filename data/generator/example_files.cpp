@@ -155,6 +155,15 @@ void write_prior(const std::string& folder) {
           "turn_sd_deg = 1.0\n");
 }
 
+void write_manifest(const std::string& folder) {
+  created(folder, "corpus.csv")
+      .print(
+          "recording,palate,speaker,options\n"
+          "recording/contours.tsv,recording/palate.tsv,S1,\"--labels \"\"front,back\"\"\"\n"
+          "word/contours.csv,,S2,--sequence\n"
+          "example_shape.csv,,S2,\n");
+}
+
 void write_observations(const ModelDescription& tongue, const std::string& folder) {
   ModelDescription truth = refined(half_of(tongue, tongue.name));
   truth.effects["airway_pressure"]["pressure"] = 400;

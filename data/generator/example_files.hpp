@@ -34,6 +34,8 @@ void write_recording(const ModelDescription& tongue, const std::string& folder);
 void write_word(const ModelDescription& tongue, const std::string& folder);
 /// FOLDER/beliefs.toml and emg.csv: a prior for the example shape.
 void write_prior(const std::string& folder);
+/// FOLDER/corpus.csv: the recordings of the other examples as a corpus.
+void write_manifest(const std::string& folder);
 /// FOLDER/observations.toml and its targets: five postures of a tongue of eight times the elements
 /// under an airway pressure that the model does not have, with 0.4 mm of noise.
 void write_observations(const ModelDescription& tongue, const std::string& folder);

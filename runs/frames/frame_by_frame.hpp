@@ -13,10 +13,14 @@ struct FrameByFrame {
   bool walks = false;  ///< activations walk from frame to frame, see Prior::smoothness_sd
 };
 
-/// `before`: the answer to the frame before the first, where that is known.
+/// `before`: the answer to the frame before the first, where that is known. `ws` is of the model.
 void answer_frames(const Model& model, const std::vector<Frame>& frames,
                    const FrameByFrame& options, const std::optional<AnswerRecord>& before,
-                   const TakeAnswer& take);
+                   InferWorkspace& ws, const TakeAnswer& take);
+
+/// The known answer to the frame before the first of `frames`.
+std::optional<AnswerRecord> answer_before(const std::vector<Frame>& frames,
+                                          const AnswerRecords& known);
 
 /// The k-th of `count` runs of neighbours: its first item, and the one after its last.
 std::pair<size_t, size_t> run_of_neighbours(size_t items, int k, int count);

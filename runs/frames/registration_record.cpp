@@ -38,8 +38,12 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
 }
 
 AnswerView with_registration(AnswerView view, const RegistrationRecord& record) {
-  view.registration = registration_json(record).dump();
-  if (record.forced) view.title += " (the registration is doubtful)";
+  return with_registration(std::move(view), registration_json(record).dump(), record.forced);
+}
+
+AnswerView with_registration(AnswerView view, const std::string& registration, bool forced) {
+  view.registration = registration;
+  if (forced) view.title += " (the registration is doubtful)";
   return view;
 }
 

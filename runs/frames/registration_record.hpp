@@ -25,6 +25,8 @@ nlohmann::json registration_json(const RegistrationRecord& record);
 
 /// The view with the registration, of which its title tells where it was forced.
 AnswerView with_registration(AnswerView view, const RegistrationRecord& record);
+/// The same of a registration that was kept as registration_json().
+AnswerView with_registration(AnswerView view, const std::string& registration, bool forced);
 
 /// The one object of a run that gave no forces: `status, message, registration`.
 std::string no_forces_json(const std::string& message, const RegistrationRecord& record);

@@ -48,7 +48,7 @@ void copy_frame_files(int frame, const std::string& folder, const std::string& o
 
 }  // namespace
 
-MergedRuns merged_runs(const std::vector<std::string>& folders) {
+MergedRuns answers_in(const std::vector<std::string>& folders) {
   MergedRuns runs;
   for (const std::string& folder : folders) {
     const std::string asked = asked_in(folder);
@@ -58,6 +58,11 @@ MergedRuns merged_runs(const std::vector<std::string>& folders) {
           fmt::format("merge: {} was made with {} as in {}", folders.front(), other, folder));
     add_answers(runs, folder);
   }
+  return runs;
+}
+
+MergedRuns merged_runs(const std::vector<std::string>& folders) {
+  MergedRuns runs = answers_in(folders);
   if (runs.answers.empty()) throw InputError("merge: there is no answer in these folders");
   return runs;
 }

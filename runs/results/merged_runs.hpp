@@ -16,6 +16,8 @@ struct MergedRuns {
 
 /// Reads the folders of runs. Throws InputError naming the folder where one holds no run, where two
 /// differ in what was asked, or where two answers to one frame differ.
+MergedRuns answers_in(const std::vector<std::string>& folders);
+/// The same, and throws InputError where they hold no answer.
 MergedRuns merged_runs(const std::vector<std::string>& folders);
 
 /// Writes run.json, results.jsonl and copies of the files of each frame into `out`, which must not

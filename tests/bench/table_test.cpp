@@ -33,7 +33,7 @@ TEST(BenchmarkTable, GivesEachBenchmarkANameOfItsOwnAndALineOfHelp) {
 
 TEST(BenchmarkTable, HoldsTheBenchmarksOfTheInterface) {
   for (const char* name :
-       {"forward", "dynamic", "inverse", "service", "discover", "robustness", "verification",
+       {"forward", "dynamic", "inverse", "service", "discover", "corpus", "robustness", "verification",
         "reach", "peer", "gesture", "ultrasound", "grenoble", "grenoble-gravity"})
     EXPECT_EQ(benchmark(name).name, name);
 }

@@ -66,7 +66,8 @@ TEST_F(FrameByFrameRun, AFrameWithoutPointsSaysWhy) {
   Frame empty;
   empty.contour.number = 3, empty.contour.note = "the tracker lost it";
   AnswerView seen;
-  answer_frames(m, {empty}, {}, std::nullopt,
+  InferWorkspace worker(m);
+  answer_frames(m, {empty}, {}, std::nullopt, worker,
                 [&](const ContourFrame&, const AnswerView& view, const Positions& shape) {
                   seen = view;
                   EXPECT_EQ(shape.size(), 0);

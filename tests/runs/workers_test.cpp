@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <map>
 
 #include "forward/base/types.hpp"
@@ -84,6 +85,32 @@ TEST(Workers, EachHasAProcessOfItsOwn) {
       [&](const std::string& process) { ++processes[process]; });
   EXPECT_EQ(processes.size(), 3u);
   EXPECT_FALSE(processes.contains(std::to_string(getpid())));
+}
+
+TEST(WorkersInTurn, EachEndingIsToldAndAtMostSoManyRunAtOnce) {
+  std::map<int, Ending> endings;
+  int came = 0, now = 0, most = 0;
+  const auto work = [](int k, const Send& send) {
+    send("+");
+    if (k == 1) throw InputError("bad");
+    if (k == 2) throw std::runtime_error("failed");
+    if (k == 3) raise(SIGKILL);
+    send("done");
+  };
+  const auto collect = [&](const std::string& text) {
+    if (text == "+") most = std::max(most, ++now);
+    else ++came;
+  };
+  in_turn(6, 2, work, collect, [&](int k, const Ending& ending) { --now, endings[k] = ending; });
+  EXPECT_EQ(came, 3);
+  EXPECT_LE(most, 2);
+  ASSERT_EQ(endings.size(), 6u);
+  EXPECT_EQ(endings[0].how, How::done);
+  EXPECT_EQ(endings[1].how, How::bad_input);
+  EXPECT_EQ(endings[1].reason, "bad");
+  EXPECT_EQ(endings[2].how, How::failed);
+  EXPECT_EQ(endings[3].how, How::died);
+  EXPECT_NE(endings[3].reason.find("signal 9"), std::string::npos) << endings[3].reason;
 }
 
 }  // namespace

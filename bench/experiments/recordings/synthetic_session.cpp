@@ -11,7 +11,7 @@ namespace genio::bench {
 namespace {
 
 constexpr double curve_noise = 0.4e-3, sensor_noise = 0.2e-3;  // [m]
-constexpr int frame_count = 3, points = 42;
+constexpr int points = 42;
 constexpr double px = 0.25e-3;  // a pixel of the images [m]
 
 /// A shape of a few muscles at up to 30 % of their maxima.
@@ -103,14 +103,14 @@ std::string model_table(const std::vector<std::vector<std::array<double, 3>>>& f
 
 }  // namespace
 
-SyntheticSession draw_session(const Model& model, Device device, std::mt19937& random) {
+SyntheticSession draw_session(const Model& model, Device device, std::mt19937& random, int frames) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::normal_distribution<double> normal;
   Workspace ws(model);
   SyntheticSession s;
   s.device = device;
   const bool sensors = device == Device::articulograph;
-  for (int f = 0; f < frame_count; ++f) {
+  for (int f = 0; f < frames; ++f) {
     const Positions x = posture(model, ws, random);
     auto line = sensors ? sensor_places(model, x) : TongueLine(model).sample(x, points + 12);
     if (!sensors) line.erase(line.begin(), line.begin() + 12);  // ultrasound misses the underside

@@ -26,8 +26,9 @@ struct SyntheticSession {
   double target_unit = 1e-3, palate_unit = 1e-3;  ///< [m] of a number in them
 };
 
-/// Draws one: a posture of two to five muscles, a speaker's size, a head's tilt and noise.
-SyntheticSession draw_session(const Model& model, Device device, std::mt19937& random);
+/// Draws one: postures of two to five muscles, a speaker's size, a head's tilt and noise.
+SyntheticSession draw_session(const Model& model, Device device, std::mt19937& random,
+                              int frames = 3);
 
 /// Text of the files and the options that their owner would give. `target` and `palate` are names.
 struct WrittenSession {

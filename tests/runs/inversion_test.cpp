@@ -1,0 +1,27 @@
+// What makes two inversions the same question.
+
+#include "runs/frames/inversion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "forward/base/text_file.hpp"
+#include "tests/runs/temporary_folder.hpp"
+
+namespace genio {
+namespace {
+
+TEST(QuestionOfAnInversion, ATargetOfSeveralFilesCountsByAllTheirContents) {
+  const test::TemporaryFolder folder;
+  const std::string a = folder.path() + "/take.TT", b = folder.path() + "/take.TB";
+  write_text(a, "tip"), write_text(b, "body");
+  InversionOptions o;
+  o.measured.target = a + "," + b;
+  const std::string before = question_json(question_of(o, 1e-3));
+  EXPECT_EQ(difference(before, question_json(question_of(o, 1e-3))), "");
+  write_text(b, "another body");
+  EXPECT_NE(difference(before, question_json(question_of(o, 1e-3))).find("target"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace genio
