@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/nearest_name.hpp"
 #include "forward/base/types.hpp"
 
@@ -18,8 +19,9 @@ namespace genio {
 class TomlReader {
  public:
   explicit TomlReader(const std::string& path) : path_(path) {
+    const std::string text = read_file(path_, largest_settings);
     try {
-      root_ = toml::parse_file(path_);
+      root_ = toml::parse(text, path_);
     } catch (const toml::parse_error& e) {
       throw InputError(fmt::format("{}:{}: {}", path_, e.source().begin.line, e.description()));
     }

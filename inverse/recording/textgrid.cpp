@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/nearest_name.hpp"
 #include "inverse/recording/base/table_text.hpp"
 #include "inverse/recording/base/unicode_text.hpp"
 
 namespace genio {
 namespace {
+
+constexpr std::uintmax_t largest_labels = std::uintmax_t(64) << 20;
 
 /// The values of a TextGrid one after another. Praat reads free-standing numbers, texts in quotes
 /// and flags in angle brackets; all else is for people, which is how long and short form differ.
@@ -96,12 +97,6 @@ class Values {
   size_t at_ = 0;
 };
 
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path + ": no such file");
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
 TimedLabel interval(Values& values) {
   TimedLabel result;
   result.first_s = values.number("the start of an interval [s]");
@@ -145,7 +140,7 @@ std::string tier_list(const std::vector<TextGridTier>& tiers) {
 }  // namespace
 
 std::vector<TextGridTier> read_textgrid(const std::string& path) {
-  const std::string bytes = bytes_of(path);
+  const std::string bytes = read_file(path, largest_labels);
   if (bytes.starts_with("ooBinaryFile"))
     throw InputError(path + ": is a binary Praat file; save it in Praat as a text file");
   std::string text = utf8_of(bytes);

@@ -1,8 +1,9 @@
 #include "runs/results/checkpoint.hpp"
 
-#include <fstream>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/text_file.hpp"
 
 namespace genio {
@@ -10,9 +11,9 @@ namespace genio {
 Checkpoint::Checkpoint(const std::string& folder, bool resume)
     : path_(folder.empty() ? "" : folder + "/checkpoint.json") {
   if (!resume || path_.empty()) return;
-  std::ifstream in(path_);
-  if (!in) return;  // interrupted before there was anything to keep
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  std::error_code none;
+  if (!std::filesystem::exists(path_, none)) return;  // interrupted before there was anything
+  const auto json = nlohmann::json::parse(read_file(path_), nullptr, false);
   try {
     for (const auto& z : json.at("unknowns")) {
       const auto values = z.get<std::vector<double>>();

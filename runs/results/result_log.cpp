@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
 
@@ -16,9 +15,9 @@ namespace fs = std::filesystem;
 
 std::string asked_in(const std::string& folder) {
   const std::string path = folder + "/run.json";
-  std::ifstream in(path);
-  if (!in) throw InputError(path + ": no such file; expected the folder of a run");
-  const std::string text(std::istreambuf_iterator<char>(in), {});
+  if (std::error_code none; !fs::exists(path, none))
+    throw InputError(path + ": no such file; expected the folder of a run");
+  const std::string text = read_file(path, largest_settings);
   if (!nlohmann::json::parse(text, nullptr, false).is_object())
     throw InputError(path + ": is damaged; name another --out, or remove the folder");
   return text;
