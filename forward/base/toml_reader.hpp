@@ -11,6 +11,7 @@
 
 #include "forward/base/input_file.hpp"
 #include "forward/base/nearest_name.hpp"
+#include "forward/base/toml_depth.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio {
@@ -20,6 +21,7 @@ class TomlReader {
  public:
   explicit TomlReader(const std::string& path) : path_(path) {
     const std::string text = read_file(path_, largest_settings);
+    if (keys_too_deep(text)) throw InputError(path_ + ": a key of hundreds of parts is no key");
     try {
       root_ = toml::parse(text, path_);
     } catch (const toml::parse_error& e) {

@@ -5,6 +5,7 @@
 
 #include "forward/base/input_file.hpp"
 #include "forward/base/text_file.hpp"
+#include "runs/results/nesting.hpp"
 
 namespace genio {
 
@@ -13,7 +14,9 @@ Checkpoint::Checkpoint(const std::string& folder, bool resume)
   if (!resume || path_.empty()) return;
   std::error_code none;
   if (!std::filesystem::exists(path_, none)) return;  // interrupted before there was anything
-  const auto json = nlohmann::json::parse(read_file(path_), nullptr, false);
+  const std::string text = read_file(path_);
+  nlohmann::json json;
+  if (!nested_too_deep(text)) json = nlohmann::json::parse(text, nullptr, false);
   try {
     for (const auto& z : json.at("unknowns")) {
       const auto values = z.get<std::vector<double>>();

@@ -8,6 +8,7 @@
 #include "forward/base/input_file.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
+#include "runs/results/nesting.hpp"
 
 namespace genio {
 
@@ -18,7 +19,7 @@ std::string asked_in(const std::string& folder) {
   if (std::error_code none; !fs::exists(path, none))
     throw InputError(path + ": no such file; expected the folder of a run");
   const std::string text = read_file(path, largest_settings);
-  if (!nlohmann::json::parse(text, nullptr, false).is_object())
+  if (nested_too_deep(text) || !nlohmann::json::parse(text, nullptr, false).is_object())
     throw InputError(path + ": is damaged; name another --out, or remove the folder");
   return text;
 }

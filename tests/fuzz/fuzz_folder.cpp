@@ -11,6 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr size_t longest_reason = 5000;
+
 void put(const std::string& path, const std::string& bytes) {
   std::ofstream out(path, std::ios::binary);
   out.write(bytes.data(), std::streamsize(bytes.size()));
@@ -40,7 +42,9 @@ bool FuzzFolder::reads(const std::string& input) {
     reader_.read(path);
     return true;
   } catch (const InputError& e) {
-    if (std::string(e.what()).empty()) throw std::logic_error("an InputError without a reason");
+    const std::string reason = e.what();
+    if (reason.empty() || reason.size() > longest_reason || reason.find('\n') != reason.npos)
+      throw std::logic_error("an InputError that is not one line of words: " + reason);
     return false;
   }
 }

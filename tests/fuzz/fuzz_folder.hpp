@@ -11,8 +11,8 @@ class FuzzFolder {
   FuzzFolder(const FuzzFolder&) = delete;
   FuzzFolder& operator=(const FuzzFolder&) = delete;
 
-  /// True where the reader reads the input, false where it refuses it with a reason. What else it
-  /// throws passes through.
+  /// True where the reader reads the input, false where it refuses it with a reason of one line.
+  /// What else it throws passes through.
   bool reads(const std::string& input);
 
  private:
