@@ -68,7 +68,7 @@ for arguments in "info" "info --json" "forward --force GGP=2" "forward --force G
                  "invert --quiet --target $target" "invert --quiet --json --target $target"; do
   # shellcheck disable=SC2086
   "$genio" $arguments >/dev/full 2>err; got=$?
-  [ $got -eq 2 ] && grep -qF "$full" err && [ "$(grep -c . err)" -le 2 ] ||
+  [ $got -eq 2 ] && grep -qF "standard output: cannot be written" err && [ "$(grep -c . err)" -le 2 ] ||
     { : >out; fail "$arguments >/dev/full -> $got"; }
 done
 exit $failed

@@ -25,7 +25,7 @@ invert --target IT
 invert --target IT --format csv
 invert --target IT --format aaa
 invert --target IT --format ssff --sensors 1=tip
-invert --target $target --palate IT --format csv
+invert --target $source/data/examples/recording/contours.tsv --palate IT
 invert --target $target --prior IT
 invert --target $target --textgrid IT
 discover --observations IT --out o

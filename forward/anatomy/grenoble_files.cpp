@@ -109,9 +109,9 @@ std::map<std::string, std::vector<int>> read_muscle_elements(const fs::path& pat
   Lines lines(path);
   std::map<std::string, std::vector<int>> result;
   std::vector<bool> selected(size_t(elements), false);
-  const std::regex select(
+  static const std::regex select(
       R"(^\s*ESEL\s*,\s*([SA])\s*,\s*ELEM\s*,\s*,\s*(\d+)\s*(?:,\s*(\d+)\s*(?:,\s*(\d+)\s*)?)?)");
-  const std::regex name(R"(^\s*CM\s*,\s*(\w+)\s*,\s*ELEM)");
+  static const std::regex name(R"(^\s*CM\s*,\s*(\w+)\s*,\s*ELEM)");
   std::smatch m;
   for (std::string line; lines.next(line);) {
     if (std::regex_search(line, m, select)) {
@@ -139,7 +139,7 @@ std::map<std::string, std::vector<int>> read_muscle_elements(const fs::path& pat
 std::vector<std::string> read_muscle_names(const fs::path& path) {
   Lines lines(path);
   std::vector<std::string> names;
-  const std::regex pattern(R"(^\s*muscleName\((\d+)\)\s*=\s*'(\w+)')");
+  static const std::regex pattern(R"(^\s*muscleName\((\d+)\)\s*=\s*'(\w+)')");
   std::smatch m;
   for (std::string line; lines.next(line);)
     if (std::regex_search(line, m, pattern)) {
@@ -154,7 +154,7 @@ void read_fibres(const fs::path& path, size_t nodes, std::vector<Muscle>& muscle
   const std::map<int, Vec3> anchors = {{4037, Vec3(0.14984029, -0.035891287, 0.125)},
                                        {4042, Vec3(0.14984029, 0.035891287, 0.125)}};
   Lines lines(path);
-  const std::regex pattern(R"(^\s*FIBER\((\d+),(\d+),(\d+)\)\s*=\s*(\d+))");
+  static const std::regex pattern(R"(^\s*FIBER\((\d+),(\d+),(\d+)\)\s*=\s*(\d+))");
   std::smatch match;
   for (std::string line; lines.next(line);) {
     if (!std::regex_search(line, match, pattern)) continue;

@@ -24,19 +24,20 @@ class Values {
 
   std::string text(const char* expected) {
     const Value v = next(expected);
-    if (v.kind != '"') fail(fmt::format("expected {} in quotes, found '{}'", expected, v.text));
+    if (v.kind != '"')
+      fail(fmt::format("expected {} in quotes, found {}", expected, in_quotes(v.text)));
     return v.text;
   }
   std::string flag(const char* expected) {
     const Value v = next(expected);
-    if (v.kind != '<') fail(fmt::format("expected {}, found '{}'", expected, v.text));
+    if (v.kind != '<') fail(fmt::format("expected {}, found {}", expected, in_quotes(v.text)));
     return v.text;
   }
   double number(const char* expected) {
     const Value v = next(expected);
     double x = 0;
     if (v.kind != '0' || !parse_number(v.text, x))
-      fail(fmt::format("expected {}, found '{}'", expected, v.text));
+      fail(fmt::format("expected {}, found {}", expected, in_quotes(v.text)));
     return x;
   }
   int count(const char* expected) {
@@ -115,13 +116,20 @@ TimedLabel point(Values& values) {
   return result;
 }
 
+/// Names stand in messages.
+std::string one_line(std::string name) {
+  for (char& c : name)
+    if (c == '\n' || c == '\r') c = ' ';
+  return name;
+}
+
 TextGridTier tier(Values& values) {
   TextGridTier result;
   const std::string kind = values.text("the class of a tier");
   if (kind != "IntervalTier" && kind != "TextTier")
-    values.fail(fmt::format("class '{}': expected IntervalTier or TextTier", kind));
+    values.fail(fmt::format("class {}: expected IntervalTier or TextTier", in_quotes(kind)));
   result.points = kind == "TextTier";
-  result.name = values.text("the name of a tier");
+  result.name = one_line(values.text("the name of a tier"));
   values.number("the start of a tier [s]"), values.number("the end of a tier [s]");
   const int size = values.count("the number of a tier's labels");
   for (int i = 0; i < size; ++i)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <Eigen/Geometry>
 #include <bit>
 #include <cstdint>
 #include <filesystem>
@@ -145,7 +146,7 @@ TEST_F(SurfaceFiles, FaultsAreNamed) {
   EXPECT_EQ(error("a.ply", square("ascii", "4", corners + "3 0 1 7\n3 0 2 3\n")),
             "a.ply: face 1: names point 7; expected 0 to 3");
   EXPECT_EQ(error("a.ply", square("ascii", "4", "0 0 0\n1 0 x\n1 1 0\n0 1 0\n" + faces)),
-            "a.ply:11: 'x'; expected a number");
+            "a.ply:12: 'x'; expected a number");
   EXPECT_EQ(error("a.ply", square("ascii", "4", corners + "3 0 1 2 9\n3 0 2 3\n")),
             "a.ply: face 1: '9' behind the last property");
   EXPECT_EQ(error("a.ply", square("ascii", "4", corners + "3 0 1 2\n")),

@@ -94,6 +94,11 @@ Take read_one(const std::string& path) {
   if (!bytes.starts_with("SSFF"))
     throw InputError(path + ": is no SSFF file; only SSFF files are joined");
   const Header h = read_header(bytes, path);
+  if (h.record > bytes.size() - h.size)  // before names of so many values are made
+    throw InputError(
+        fmt::format("{}: has no record: one takes {} bytes, and {} stand behind the "
+                    "header",
+                    path, h.record, bytes.size() - h.size));
   const SensorChannels sensors(track_names(h));
   if (sensors.names().empty()) {
     std::string columns;
@@ -110,7 +115,6 @@ Take read_one(const std::string& path) {
         values.push_back(number(bytes.data() + at, c));
     take.table.samples.push_back(sensors.positions(values));
   }
-  if (take.table.samples.empty()) throw InputError(path + ": has no record");
   if (const size_t rest = (bytes.size() - h.size) % h.record; rest != 0)
     take.table.remarks.push_back(fmt::format(
         "{} is cut short: {} whole records are read; the last {} bytes are no whole record of {}",
