@@ -43,7 +43,10 @@ FuzzReader textgrid_reader() {
        "  points: size = 1\n  points [1]:\n   number = 0.5\n   mark = \"x\"\n",
        "\"ooTextFile\"\n\"TextGrid\"\n0\n1\n<exists>\n1\n\"IntervalTier\"\n\"w\"\n0\n1\n1\n0\n1\n"
        "\"a\"\n! end\n"},
-      [](const std::string& path) { tier_named(read_textgrid(path), "", path); }};
+      [](const std::string& path) {
+        const auto tiers = read_textgrid(path);
+        tier_named(tiers, tiers.front().name, path);
+      }};
 }
 
 FuzzReader prior_reader() {

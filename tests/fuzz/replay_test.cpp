@@ -6,11 +6,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ostream>
 #include <random>
 
 #include "tests/fuzz/fuzz_folder.hpp"
 
 namespace genio::test {
+
+/// What GoogleTest writes of a row.
+void PrintTo(const FuzzReader& reader, std::ostream* out) { *out << reader.file; }
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,8 +79,11 @@ TEST_P(Readers, ReadOrRefuseWhatTheFuzzerFound) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Readers, testing::ValuesIn(fuzz_readers()),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, Readers, testing::ValuesIn(fuzz_readers()), [](const auto& reader) {
+  std::string name = reader.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST(Corpus, EveryFolderIsOfAReader) {
   for (const auto& entry : fs::directory_iterator(corpus))

@@ -31,7 +31,7 @@ for reader in "${readers[@]}"; do
   echo "| $reader | ${count:-?} | ${cover:-?} | $(find "$found" -type f ! -name log | wc -l) |"
   if [ -n "${KEEP:-}" ]; then
     mkdir -p "$kept" "$build/fuzz-least/$reader"
-    "$bin/genio-fuzz" "${limits[@]}" -merge=1 "$build/fuzz-least/$reader" "${seeds[@]}" "$corpus" >/dev/null 2>&1 || true
+    "$bin/genio-fuzz" "${limits[@]}" -merge=1 -use_counters=0 "$build/fuzz-least/$reader" "${seeds[@]}" "$corpus" >/dev/null 2>&1 || true
     cp -n "$build/fuzz-least/$reader"/* "$kept/" 2>/dev/null || true
   fi
 done
