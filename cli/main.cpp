@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 
 #include "cli/command_line/command_line.hpp"
 #include "cli/subcommands/bench.hpp"
@@ -17,11 +19,24 @@
 #include "cli/subcommands/serve.hpp"
 #include "forward/base/types.hpp"
 
+namespace {
+
+/// The status, unless what was printed could not be written: it may have waited in a buffer.
+int told(int status) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+  fmt::print(stderr, "genio: standard output: cannot be written: {}\n",
+             errno ? std::strerror(errno) : "the disk may be full");
+  return genio::cli::bad_input;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace genio::cli;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error that is told
   try {
-    return run_command_line(
+    return told(run_command_line(
         argc, argv,
         {{"info", "What a model holds", add_info},
          {"import", "Make a model folder from foreign files", add_import},
@@ -34,11 +49,12 @@ int main(int argc, char** argv) {
           add_discover},
          {"serve", "Answer shape requests over LCM", add_serve},
          {"request", "Ask a server", add_request},
-         {"bench", "Figures of merit, measured here", add_bench}});
+         {"bench", "Figures of merit, measured here", add_bench}}));
   } catch (const genio::InputError& e) {
     fmt::print(stderr, "genio: {}\n", e.what());
     return bad_input;
   } catch (const std::exception& e) {
+    if (std::ferror(stdout)) return told(no_answer);
     fmt::print(stderr, "genio: {}\n", e.what());
     return no_answer;
   }

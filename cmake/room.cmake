@@ -14,7 +14,12 @@ if(GENIO_WERROR)
   target_compile_options(genio_flags INTERFACE -Werror -Wno-error=uninitialized)
 endif()
 target_compile_options(genio_flags INTERFACE ${GENIO_ARCH_FLAG})
-if(GENIO_SANITIZE)
+if(GENIO_FUZZ)
+  target_compile_options(genio_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                         -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+                         -Wno-unknown-warning-option)
+  target_link_options(genio_flags INTERFACE -fsanitize=address,undefined)
+elseif(GENIO_SANITIZE)
   target_compile_options(genio_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
                          -fno-sanitize-recover=undefined)
   target_link_options(genio_flags INTERFACE -fsanitize=address,undefined)

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/nearest_name.hpp"
+#include "forward/base/toml_depth.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio {
@@ -18,17 +20,20 @@ namespace genio {
 class TomlReader {
  public:
   explicit TomlReader(const std::string& path) : path_(path) {
+    const std::string text = read_file(path_, largest_settings);
+    if (keys_too_deep(text)) throw InputError(path_ + ": a key of hundreds of parts is no key");
     try {
-      root_ = toml::parse_file(path_);
+      root_ = toml::parse(text, path_);
     } catch (const toml::parse_error& e) {
-      throw InputError(fmt::format("{}:{}: {}", path_, e.source().begin.line, e.description()));
+      throw InputError(fmt::format("{}:{}: {}", path_, e.source().begin.line,
+                                   one_line(std::string(e.description()))));
     }
   }
   const toml::table& root() const { return root_; }
   const std::string& path() const { return path_; }
 
   [[noreturn]] void fail(const toml::node& at, const std::string& what) const {
-    throw InputError(fmt::format("{}:{}: {}", path_, at.source().begin.line, what));
+    throw InputError(fmt::format("{}:{}: {}", path_, at.source().begin.line, one_line(what)));
   }
   const toml::table& table(const toml::table& in, const std::string& key) const {
     const auto* node = in.get(key);
@@ -62,6 +67,13 @@ class TomlReader {
   }
 
  private:
+  /// Keys and texts may hold line ends, and so do messages of toml++ that quote them.
+  static std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
+    return text;
+  }
+
   std::string path_;
   toml::table root_;
 };

@@ -1,17 +1,14 @@
 #include "forward/geometry/triangle_surface.hpp"
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <assimp/Importer.hpp>
-#include <filesystem>
 #include <map>
 #include <queue>
+#include <utility>
 
 #include "forward/base/printed_text.hpp"
 #include "forward/base/text_file.hpp"
+#include "forward/polygons/polygons.hpp"
+#include "forward/polygons/triangulate.hpp"
 
 namespace genio {
 namespace {
@@ -40,7 +37,8 @@ void orient_consistently(TriangleSurface& s) {
       const int t = queue.front();
       for (int i = 0; i < 3; ++i) {
         const int a = s.triangles[t][i], b = s.triangles[t][(i + 1) % 3];
-        for (int other : by_edge[{std::min(a, b), std::max(a, b)}]) {
+        // Behind this loop all triangles of the edge are done, so nobody has to look again.
+        for (int other : std::exchange(by_edge[{std::min(a, b), std::max(a, b)}], {})) {
           if (done[other]) continue;
           if (runs(other, a, b)) std::swap(s.triangles[other][1], s.triangles[other][2]);
           done[other] = true;
@@ -51,42 +49,48 @@ void orient_consistently(TriangleSurface& s) {
   }
 }
 
+/// Points at one place are one vertex; those that no face has are none.
+class VertexList {
+ public:
+  VertexList(const std::vector<Vec3>& points, const std::string& path)
+      : points_(points), path_(path) {}
+  int vertex(int point) {
+    const Vec3& x = points_[size_t(point)];
+    if (!x.allFinite()) throw InputError(path_ + ": a vertex is not finite");
+    const auto [it, fresh] = index_.try_emplace({x[0], x[1], x[2]}, int(vertices_.size()));
+    if (fresh) vertices_.push_back(x);
+    return it->second;
+  }
+  std::vector<Vec3> take() { return std::move(vertices_); }
+
+ private:
+  const std::vector<Vec3>& points_;
+  const std::string& path_;
+  std::map<std::array<double, 3>, int> index_;
+  std::vector<Vec3> vertices_;
+};
+
 }  // namespace
 
 TriangleSurface read_surface(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw InputError(path + ": no such file");
-  Assimp::Importer importer;
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
-                              aiPrimitiveType_LINE | aiPrimitiveType_POINT);
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                              aiComponent_NORMALS | aiComponent_TEXCOORDS | aiComponent_COLORS);
-  const aiScene* scene = importer.ReadFile(
-      path, aiProcess_Triangulate | aiProcess_RemoveComponent | aiProcess_JoinIdenticalVertices |
-                aiProcess_SortByPType | aiProcess_PreTransformVertices);
-  if (!scene)
-    throw InputError(
-        fmt::format("{}: cannot be read as STL, OBJ or PLY ({})", path, importer.GetErrorString()));
+  const Polygons polygons = read_polygons(path);
+  const auto faces = triangulated(polygons, path);
+  VertexList vertices(polygons.points, path);
+  if (polygons.in_order) {
+    std::vector<bool> used(polygons.points.size(), false);
+    for (const auto& corners : faces)
+      for (const int point : corners) used[size_t(point)] = true;
+    for (size_t point = 0; point < used.size(); ++point)
+      if (used[point]) vertices.vertex(int(point));
+  }
   TriangleSurface s;
-  std::map<std::array<float, 3>, int> index;  // meshes of one file may repeat a vertex
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene->mMeshes[m];
-    std::vector<int> local(mesh.mNumVertices);
-    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-      const aiVector3D& p = mesh.mVertices[v];
-      const auto [it, fresh] = index.try_emplace({p.x, p.y, p.z}, int(s.vertices.size()));
-      if (fresh) s.vertices.emplace_back(p.x, p.y, p.z);
-      local[v] = it->second;
-    }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      if (mesh.mFaces[f].mNumIndices != 3) continue;
-      const unsigned* i = mesh.mFaces[f].mIndices;
-      const std::array<int, 3> t = {local[i[0]], local[i[1]], local[i[2]]};
-      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) s.triangles.push_back(t);
-    }
+  for (const auto& c : faces) {
+    const std::array<int, 3> t = {vertices.vertex(c[0]), vertices.vertex(c[1]),
+                                  vertices.vertex(c[2])};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) s.triangles.push_back(t);
   }
   if (s.triangles.empty()) throw InputError(path + ": the surface has no triangles");
-  for (const Vec3& v : s.vertices)
-    if (!v.allFinite()) throw InputError(path + ": a vertex is not finite");
+  s.vertices = vertices.take();
   orient_consistently(s);
   return s;
 }

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/printed_text.hpp"
 #include "forward/base/text_file.hpp"
 
@@ -82,6 +82,9 @@ VtkArray read_array(const std::string& path, const pugi::xml_node& node, bool wi
   return a;
 }
 
+/// 0, which is no type, for what none can be.
+int cell_type(double value) { return value >= 0 && value < 256 ? int(value) : 0; }
+
 void read_cells(const std::string& path, const pugi::xml_node& node, bool wide, VtkData& data,
                 int fixed_type) {
   VtkArray connectivity, offsets, types;
@@ -107,7 +110,7 @@ void read_cells(const std::string& path, const pugi::xml_node& node, bool wide, 
     }
     data.cells.push_back(std::move(cell));
     data.types.push_back(fixed_type                ? fixed_type
-                         : c < types.values.size() ? int(types.values[c])
+                         : c < types.values.size() ? cell_type(types.values[c])
                                                    : 0);
   }
 }
@@ -152,9 +155,9 @@ void print_data(PrintedText& out, const VtkData& data) {
 }  // namespace
 
 VtkData read_vtk(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw InputError(path + ": no such file");
+  const std::string bytes = read_file(path);
   pugi::xml_document doc;
-  const auto parsed = doc.load_file(path.c_str());
+  const auto parsed = doc.load_buffer(bytes.data(), bytes.size());
   if (!parsed)
     throw InputError(fmt::format("{}: not a VTK XML file ({} at byte {})", path,
                                  parsed.description(), parsed.offset));

@@ -51,9 +51,13 @@ void read_mesh(const std::string& path, ModelDescription& d) {
     d.supports.push_back(Support(int(s)));
   }
   const auto& mask = need(data.cell_data, "muscles", path);
+  for (const double bits : mask.values)
+    if (!(bits >= 0 && bits < 0x1p53))
+      throw InputError(
+          fmt::format("{}: array 'muscles' holds {}; expected a mask of muscles", path, bits));
   for (size_t c = 0; c < data.cells.size(); ++c)
     for (size_t m = 0; m < d.muscles.size(); ++m)
-      if (int64_t(mask.values[c]) >> m & 1) d.muscles[m].elements.push_back(int(c));
+      if (uint64_t(mask.values[c]) >> m & 1) d.muscles[m].elements.push_back(int(c));
 }
 
 void read_fibres(const std::string& path, ModelDescription& d) {
@@ -122,8 +126,9 @@ void read_effects(const Reader& r, ModelDescription& d) {
 
 ModelDescription read_description(const std::string& given) {
   fs::path path = given;
-  if (fs::is_directory(path)) path /= "model.toml";
-  if (!fs::exists(path))
+  std::error_code none;
+  if (fs::is_directory(path, none)) path /= "model.toml";
+  if (!fs::exists(path, none))
     throw InputError(
         fmt::format("{}: no such model file; expected a model.toml or its folder", path.string()));
   const Reader r(path);

@@ -7,10 +7,14 @@
 #include <fstream>
 #include <sstream>
 
+#include "forward/base/input_file.hpp"
+
 namespace genio {
 namespace {
 
 constexpr double activation_step = 2.5e-4;  // [s]
+constexpr double longest = 100;             // [s]; at each step of the activation all are kept
+constexpr std::uintmax_t largest_commands = std::uintmax_t(64) << 20;  // bytes
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> cells;
@@ -79,8 +83,9 @@ CommandsOverTime ramp(const Parameters& from, const Parameters& to, double ramp)
 
 CommandsOverTime read_commands(const Model& model, const std::string& path,
                                const Parameters& base) {
+  check_input(path, largest_commands);
   std::ifstream in(path);
-  if (!in) throw InputError(path + ": cannot open the commands");
+  if (!in) throw InputError(path + ": cannot be read");
   CommandsOverTime c;
   std::vector<std::string> columns;
   std::string text;
@@ -98,6 +103,9 @@ CommandsOverTime read_commands(const Model& model, const std::string& path,
       throw InputError(fmt::format("{}:{}: {} columns; expected the {} of the header", path, line,
                                    cells.size(), columns.size()));
     const double time = number(cells[0], path, line, "time_s");
+    if (std::abs(time) > longest)
+      throw InputError(fmt::format("{}:{}: time_s {}; expected seconds from {} to {}", path, line,
+                                   time, -longest, longest));
     if (!c.times.empty() && time < c.times.back())
       throw InputError(fmt::format("{}:{}: time_s {} comes before {}; expected rising times", path,
                                    line, time, c.times.back()));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/nearest_name.hpp"
 #include "inverse/recording/base/table_text.hpp"
 #include "inverse/recording/curves/aaa.hpp"
@@ -30,8 +31,9 @@ std::string ending(const std::string& path) {
 }
 
 std::string first_bytes(const std::string& path) {
+  check_input(path);
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path + ": no such file");
+  if (!in) throw InputError(path + ": cannot be read");
   std::string bytes(4, '\0');
   in.read(bytes.data(), 4);
   return bytes.substr(0, size_t(in.gcount()));

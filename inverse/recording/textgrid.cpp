@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/nearest_name.hpp"
 #include "inverse/recording/base/table_text.hpp"
 #include "inverse/recording/base/unicode.hpp"
 
 namespace genio {
 namespace {
+
+constexpr std::uintmax_t largest_labels = std::uintmax_t(64) << 20;
 
 /// The values of a TextGrid one after another. Praat reads free-standing numbers, texts in quotes
 /// and flags in angle brackets; all else is for people, which is how long and short form differ.
@@ -23,19 +24,20 @@ class Values {
 
   std::string text(const char* expected) {
     const Value v = next(expected);
-    if (v.kind != '"') fail(fmt::format("expected {} in quotes, found '{}'", expected, v.text));
+    if (v.kind != '"')
+      fail(fmt::format("expected {} in quotes, found {}", expected, in_quotes(v.text)));
     return v.text;
   }
   std::string flag(const char* expected) {
     const Value v = next(expected);
-    if (v.kind != '<') fail(fmt::format("expected {}, found '{}'", expected, v.text));
+    if (v.kind != '<') fail(fmt::format("expected {}, found {}", expected, in_quotes(v.text)));
     return v.text;
   }
   double number(const char* expected) {
     const Value v = next(expected);
     double x = 0;
     if (v.kind != '0' || !parse_number(v.text, x))
-      fail(fmt::format("expected {}, found '{}'", expected, v.text));
+      fail(fmt::format("expected {}, found {}", expected, in_quotes(v.text)));
     return x;
   }
   int count(const char* expected) {
@@ -96,12 +98,6 @@ class Values {
   size_t at_ = 0;
 };
 
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path + ": no such file");
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
 TimedLabel interval(Values& values) {
   TimedLabel result;
   result.first_s = values.number("the start of an interval [s]");
@@ -120,13 +116,20 @@ TimedLabel point(Values& values) {
   return result;
 }
 
+/// Names stand in messages.
+std::string one_line(std::string name) {
+  for (char& c : name)
+    if (c == '\n' || c == '\r') c = ' ';
+  return name;
+}
+
 TextGridTier tier(Values& values) {
   TextGridTier result;
   const std::string kind = values.text("the class of a tier");
   if (kind != "IntervalTier" && kind != "TextTier")
-    values.fail(fmt::format("class '{}': expected IntervalTier or TextTier", kind));
+    values.fail(fmt::format("class {}: expected IntervalTier or TextTier", in_quotes(kind)));
   result.points = kind == "TextTier";
-  result.name = values.text("the name of a tier");
+  result.name = one_line(values.text("the name of a tier"));
   values.number("the start of a tier [s]"), values.number("the end of a tier [s]");
   const int size = values.count("the number of a tier's labels");
   for (int i = 0; i < size; ++i)
@@ -145,7 +148,7 @@ std::string tier_list(const std::vector<TextGridTier>& tiers) {
 }  // namespace
 
 std::vector<TextGridTier> read_textgrid(const std::string& path) {
-  const std::string bytes = bytes_of(path);
+  const std::string bytes = read_file(path, largest_labels);
   if (bytes.starts_with("ooBinaryFile"))
     throw InputError(path + ": is a binary Praat file; save it in Praat as a text file");
   std::string text = utf8_of(bytes);

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "runs/results/nesting.hpp"
+
 namespace genio {
 namespace {
 
@@ -111,8 +113,11 @@ bool agree(const AnswerRecord& a, const AnswerRecord& b) {
 }
 
 std::optional<AnswerRecord> read_record(const std::string& line) {
+  if (nested_too_deep(line)) return std::nullopt;
   const auto answer = nlohmann::json::parse(line, nullptr, false);
   if (!answer.is_object() || !answer.contains("frame") || !answer["frame"].is_number_integer())
+    return std::nullopt;
+  if (const double frame = answer["frame"].get<double>(); !(std::abs(frame) < 2e9))
     return std::nullopt;
   AnswerRecord r;
   r.frame = answer["frame"].get<int>();

@@ -1,18 +1,22 @@
 #include "runs/results/checkpoint.hpp"
 
-#include <fstream>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/text_file.hpp"
+#include "runs/results/nesting.hpp"
 
 namespace genio {
 
 Checkpoint::Checkpoint(const std::string& folder, bool resume)
     : path_(folder.empty() ? "" : folder + "/checkpoint.json") {
   if (!resume || path_.empty()) return;
-  std::ifstream in(path_);
-  if (!in) return;  // interrupted before there was anything to keep
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  std::error_code none;
+  if (!std::filesystem::exists(path_, none)) return;  // interrupted before there was anything
+  const std::string text = read_file(path_);
+  nlohmann::json json;
+  if (!nested_too_deep(text)) json = nlohmann::json::parse(text, nullptr, false);
   try {
     for (const auto& z : json.at("unknowns")) {
       const auto values = z.get<std::vector<double>>();

@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
+#include <string_view>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio {
@@ -15,15 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string content(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path.string() + ": no such file");
-  return std::string(std::istreambuf_iterator<char>(in), {});
+/// Fowler, Noll and Vo's: of changes, not of attacks.
+void mix(uint64_t& hash, std::string_view bytes) {
+  for (const char c : bytes) hash = (hash ^ uint8_t(c)) * 0x100000001b3;
 }
 
-/// Fowler, Noll and Vo's: of changes, not of attacks.
-void mix(uint64_t& hash, const std::string& bytes) {
-  for (const char c : bytes) hash = (hash ^ uint8_t(c)) * 0x100000001b3;
+/// A block at a time: recordings are large.
+void mix_file(uint64_t& hash, const std::string& path) {
+  check_input(path);
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path + ": cannot be read");
+  for (char block[1 << 16]; in.read(block, sizeof block), in.gcount() > 0;)
+    mix(hash, {block, size_t(in.gcount())});
 }
 
 /// Files beside a TOML file that it names in quotes, in the order of their names.
@@ -43,12 +47,14 @@ std::set<fs::path> named_files(const fs::path& path, const std::string& text) {
 }  // namespace
 
 std::string content_hash(const std::string& path) {
-  const fs::path file = fs::is_directory(path) ? fs::path(path) / "model.toml" : fs::path(path);
-  const std::string text = content(file);
+  std::error_code none;
+  const fs::path file =
+      fs::is_directory(path, none) ? fs::path(path) / "model.toml" : fs::path(path);
   uint64_t hash = 0xcbf29ce484222325;
-  mix(hash, text);
+  mix_file(hash, file.string());
   if (file.extension() == ".toml")
-    for (const fs::path& named : named_files(file, text)) mix(hash, content(named));
+    for (const fs::path& named : named_files(file, read_file(file.string(), largest_settings)))
+      mix_file(hash, named.string());
   return fmt::format("{:016x}", hash);
 }
 

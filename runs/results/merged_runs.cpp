@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
 #include "runs/results/result_log.hpp"
@@ -17,8 +18,11 @@ namespace fs = std::filesystem;
 /// A last line that was cut off by an interruption is no answer; any other line has to be one.
 void add_answers(MergedRuns& runs, const std::string& folder) {
   const std::string path = folder + "/results.jsonl";
+  if (std::error_code none; !fs::exists(path, none))
+    throw InputError(path + ": no such file; expected the folder of a run");
+  check_input(path, largest_whole);
   std::ifstream in(path);
-  if (!in) throw InputError(path + ": no such file; expected the folder of a run");
+  if (!in) throw InputError(path + ": cannot be read");
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
@@ -37,7 +41,7 @@ void add_answers(MergedRuns& runs, const std::string& folder) {
 void copy_frame_files(int frame, const std::string& folder, const std::string& out) {
   for (const char* ending : {".json", ".csv", ".svg", ".png", ".vtu"}) {
     const std::string name = "/" + frame_name(frame) + ending;
-    if (!fs::exists(folder + name)) continue;
+    if (std::error_code none; !fs::exists(folder + name, none)) continue;
     replace_file(out + name, [&](const std::string& file) {
       std::error_code error;
       fs::copy_file(folder + name, file, fs::copy_options::overwrite_existing, error);

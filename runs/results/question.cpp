@@ -22,7 +22,9 @@ struct ValueToJson {
   }
 };
 
-bool is_file(const Json& value) { return value.is_object() && value.contains("content"); }
+bool is_file(const Json& value) {
+  return value.is_object() && value.contains("content") && value.contains("file");
+}
 
 }  // namespace
 

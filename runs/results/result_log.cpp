@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "forward/base/input_file.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
+#include "runs/results/nesting.hpp"
 
 namespace genio {
 
@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 std::string asked_in(const std::string& folder) {
   const std::string path = folder + "/run.json";
-  std::ifstream in(path);
-  if (!in) throw InputError(path + ": no such file; expected the folder of a run");
-  const std::string text(std::istreambuf_iterator<char>(in), {});
-  if (!nlohmann::json::parse(text, nullptr, false).is_object())
+  if (std::error_code none; !fs::exists(path, none))
+    throw InputError(path + ": no such file; expected the folder of a run");
+  const std::string text = read_file(path, largest_settings);
+  if (nested_too_deep(text) || !nlohmann::json::parse(text, nullptr, false).is_object())
     throw InputError(path + ": is damaged; name another --out, or remove the folder");
   return text;
 }

@@ -22,7 +22,7 @@ EmgTerm EmgTerm::read_table(const std::string& path) {
   const auto header = split_fields(line, ',');
   if (header.size() != 3 || trimmed(header[0]) != "muscle" || trimmed(header[1]) != "mean" ||
       trimmed(header[2]) != "sd")
-    lines.fail(fmt::format("header '{}'; expected muscle,mean,sd", trimmed(line)));
+    lines.fail(fmt::format("header {}; expected muscle,mean,sd", in_quotes(line)));
   EmgTerm term;
   while (lines.next(line)) {
     if (trimmed(line).empty()) continue;
@@ -30,11 +30,11 @@ EmgTerm EmgTerm::read_table(const std::string& path) {
     if (fields.size() != 3) lines.fail(fmt::format("{} fields; expected 3", fields.size()));
     Normal activation;
     if (!parse_number(fields[1], activation.mean) || activation.mean < 0 || activation.mean > 1)
-      lines.fail(fmt::format("field mean: '{}'; expected an activation from 0 to 1", fields[1]));
+      lines.fail(fmt::format("field mean: {}; expected an activation from 0 to 1", in_quotes(fields[1])));
     if (!parse_number(fields[2], activation.sd) || !(activation.sd > 0))
-      lines.fail(fmt::format("field sd: '{}'; expected a number above 0", fields[2]));
+      lines.fail(fmt::format("field sd: {}; expected a number above 0", in_quotes(fields[2])));
     if (!term.emg.emplace(trimmed(fields[0]), activation).second)
-      lines.fail(fmt::format("muscle '{}' stands twice", trimmed(fields[0])));
+      lines.fail(fmt::format("muscle {} stands twice", in_quotes(fields[0])));
   }
   if (term.emg.empty()) lines.fail("the file has a header but no muscle");
   return term;

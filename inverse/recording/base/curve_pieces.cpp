@@ -10,8 +10,9 @@ namespace {
 
 constexpr double least_jump = 15e-3;  // [m]
 constexpr double times_spacing = 8;
-constexpr size_t stray = 3;     // points in a row that may be none of the curve
-constexpr double beside = 0.6;  // share of a piece that lies along the other
+constexpr size_t stray = 3;          // points in a row that may be none of the curve
+constexpr size_t most_pieces = 100;  // each is compared with each
+constexpr double beside = 0.6;       // share of a piece that lies along the other
 
 using Piece = std::vector<ContourPoint>;
 
@@ -56,6 +57,10 @@ size_t keep_the_curve(ContourFrame& frame, const std::string& path) {
   std::vector<Piece> kept;
   for (Piece& piece : pieces)
     if (piece.size() > stray) kept.push_back(std::move(piece));
+  if (kept.size() > most_pieces)
+    throw InputError(fmt::format(
+        "{}: frame {}: its points lie in {} pieces far from each other; expected one curve a frame",
+        path, frame.number, kept.size()));
   for (size_t a = 0; a < kept.size(); ++a)
     for (size_t b = 0; b < a; ++b)
       if (retraces(kept[a], kept[b]) || retraces(kept[b], kept[a]))

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <utility>
 
+#include "forward/base/input_file.hpp"
 #include "inverse/recording/base/unicode.hpp"
 
 namespace genio {
@@ -39,10 +39,10 @@ bool stands_for_nothing(const std::string& field) {
 
 }  // namespace
 
-TableLines::TableLines(const std::string& path) : TablePlace(path), in_(path, std::ios::binary) {
-  if (std::error_code e; std::filesystem::is_directory(path, e))
-    throw InputError(path + ": is a folder; expected a file");
-  if (!in_) throw InputError(path + ": no such file");
+TableLines::TableLines(const std::string& path) : TablePlace(path) {
+  check_input(path);
+  in_.open(path, std::ios::binary);
+  if (!in_) throw InputError(path + ": cannot be read");
   unsigned char mark[3] = {};
   in_.read(reinterpret_cast<char*>(mark), 3);
   const auto count = in_.gcount();

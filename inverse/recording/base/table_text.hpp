@@ -30,7 +30,7 @@ class TablePlace {
 /// its mark, and lines of Latin-1.
 class TableLines : public TablePlace {
  public:
-  /// Throws InputError where there is no such file.
+  /// Throws InputError where there is no such file, or one that check_input() refuses.
   explicit TableLines(const std::string& path);
   /// False at the end. Throws InputError at a NUL byte, and at a line that is longer than any
   /// table's.

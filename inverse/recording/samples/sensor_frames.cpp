@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
+#include "forward/base/input_file.hpp"
 #include "inverse/recording/base/confidence.hpp"
 #include "inverse/recording/base/table_text.hpp"
 #include "inverse/recording/samples/bad_samples.hpp"
@@ -96,15 +95,6 @@ RawContours sensor_frames(const std::string& path, SensorTable table, const Read
   return raw;
 }
 
-std::string sensor_file_bytes(const std::string& path) {
-  constexpr std::uintmax_t largest = std::uintmax_t(2) << 30;
-  std::error_code e;
-  if (!std::filesystem::is_regular_file(path, e)) throw InputError(path + ": no such file");
-  if (std::filesystem::file_size(path, e) > largest)
-    throw InputError(path + ": is larger than 2 GB; no recording of sensors is");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path + ": cannot be read");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string sensor_file_bytes(const std::string& path) { return read_file(path, largest_input); }
 
 }  // namespace genio

@@ -94,6 +94,11 @@ Take read_one(const std::string& path) {
   if (!bytes.starts_with("SSFF"))
     throw InputError(path + ": is no SSFF file; only SSFF files are joined");
   const Header h = read_header(bytes, path);
+  if (h.record > bytes.size() - h.size)  // before names of so many values are made
+    throw InputError(
+        fmt::format("{}: has no record: one takes {} bytes, and {} stand behind the "
+                    "header",
+                    path, h.record, bytes.size() - h.size));
   const SensorChannels sensors(track_names(h));
   if (sensors.names().empty()) {
     std::string columns;

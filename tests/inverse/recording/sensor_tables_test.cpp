@@ -2,7 +2,6 @@
 
 #include <functional>
 
-#include "inverse/recording/format_list.hpp"
 #include "tests/inverse/recording/formats_fixture.hpp"
 
 namespace genio {
@@ -168,25 +167,6 @@ TEST_F(Formats, FrozenAndJumpingSensorsAreSaidAndLeftOut) {
   const auto off = read_contours(
       write("o.txt", moving([](int s, double x) { return s >= 30 ? x + 40 : x; })), named);
   EXPECT_EQ(tips(off), 30u);
-}
-
-TEST_F(Formats, BrokenFilesOfSensorsEndInAnInputErrorOrAreRead) {
-  unsigned seed = 1;
-  const auto random = [&] { return seed = seed * 1664525u + 1013904223u, seed >> 8; };
-  for (const ContourFormat& format : contour_formats()) {
-    if (format.traits.content != Content::sensors) continue;
-    for (int trial = 0; trial < 300; ++trial) {
-      std::string text = format.example.text;
-      for (unsigned k = random() % 4 + 1; k > 0; --k) text[random() % text.size()] = char(random());
-      if (random() % 3 == 0) text.resize(random() % text.size());
-      ReadOptions o = format.example.options;
-      o.format = format.traits.name;
-      try {
-        read_contours(write("broken", text), o);
-      } catch (const InputError&) {
-      }
-    }
-  }
 }
 
 }  // namespace
