@@ -70,7 +70,8 @@ int wait_for(const Json& jobs, int kills, std::mt19937& random) {
   int killed = 0;
   for (int round = 1;; ++round) {
     std::this_thread::sleep_for(std::chrono::seconds(1));
-    const ProgramEnd left = run_program({"squeue", "--noheader", "--jobs=" + array + "," + merge});
+    const ProgramEnd left =
+        run_program({"squeue", "--noheader", fmt::format("--jobs={},{}", array, merge)});
     if (left.said.find_first_not_of(" \n") == std::string::npos || left.status != 0) return killed;
     const auto tasks = running(array);
     if (killed >= kills || round % 7 != 0 || tasks.empty()) continue;
@@ -103,7 +104,7 @@ Lines lines_of(const std::string& out, int& twice) {
   const Json corpus = read_json(out + "/corpus.json");
   for (const Json& r : corpus.at("by_recording")) {
     const std::string name = r.at("recording");
-    std::ifstream in(out + "/" + name + "/results.jsonl");
+    std::ifstream in(fmt::format("{}/{}/results.jsonl", out, name));
     for (std::string line; std::getline(in, line);)
       if (const auto a = read_record(line))
         twice += !lines.try_emplace({name, a->frame}, *a).second;
@@ -115,7 +116,7 @@ Lines lines_of(const std::string& out, int& twice) {
     std::string name, cell;
     std::getline(in, name, ',');
     for (int k = 0; k < 3; ++k) std::getline(in, cell, ',');
-    twice += !rows.insert(name + "," + cell).second;
+    twice += !rows.insert(fmt::format("{},{}", name, cell)).second;
   }
   return lines;
 }

@@ -12,7 +12,7 @@ constexpr double outlier_dof = 4;  // of Student's t
 
 Prior checked_prior(const Model& model, const InversionOptions& o) {
   if (o.prior.empty()) return {};
-  const Prior prior = read_prior(o.prior);
+  Prior prior = read_prior(o.prior);
   try {
     prior_terms(prior, unknowns_of(model, prior, o.bilateral));
   } catch (const InputError& e) {

@@ -33,8 +33,8 @@ TEST(BenchmarkTable, GivesEachBenchmarkANameOfItsOwnAndALineOfHelp) {
 
 TEST(BenchmarkTable, HoldsTheBenchmarksOfTheInterface) {
   for (const char* name :
-       {"forward", "dynamic", "inverse", "service", "discover", "corpus", "robustness", "verification",
-        "reach", "peer", "gesture", "ultrasound", "grenoble", "grenoble-gravity"})
+       {"forward", "dynamic", "inverse", "service", "discover", "corpus", "robustness",
+        "verification", "reach", "peer", "gesture", "ultrasound", "grenoble", "grenoble-gravity"})
     EXPECT_EQ(benchmark(name).name, name);
 }
 

@@ -75,9 +75,10 @@ std::string write_corpus_files(const SyntheticCorpus& c, const std::string& mode
     const WrittenSession w = written(
         draw_session(models[size_t(speaker)], devices[(k / c.speakers) % 5], random, c.frames));
     const std::string name = fmt::format("S{}/take{:02}", speaker + 1, k / c.speakers + 1);
-    make_folder(folder + "/" + name);
-    write_text(folder + "/" + name + "/" + w.target, w.target_text);
-    if (!w.palate.empty()) write_text(folder + "/" + name + "/" + w.palate, w.palate_text);
+    const std::string take = fmt::format("{}/{}", folder, name);
+    make_folder(take);
+    write_text(fmt::format("{}/{}", take, w.target), w.target_text);
+    if (!w.palate.empty()) write_text(fmt::format("{}/{}", take, w.palate), w.palate_text);
     manifest += fmt::format("{}/{},{},S{},models/S{},\"{}\"\n", name, w.target,
                             w.palate.empty() ? "" : name + "/" + w.palate, speaker + 1, speaker + 1,
                             options_text(w.options));
