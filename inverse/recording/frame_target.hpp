@@ -1,6 +1,6 @@
 #pragma once
 #include "inverse/recording/contour_file.hpp"
-#include "inverse/recording/registration.hpp"
+#include "inverse/recording/registration/registration.hpp"
 #include "inverse/target/target.hpp"
 
 namespace genio {

@@ -1,7 +1,7 @@
 #pragma once
 // The one test that a registration has to pass before forces are answered.
 
-#include "inverse/recording/registration.hpp"
+#include "inverse/recording/registration/registration.hpp"
 
 namespace genio {
 

@@ -7,7 +7,7 @@
 
 #include "forward/model/model.hpp"
 #include "inverse/recording/base/axes_reading.hpp"
-#include "inverse/recording/registration.hpp"
+#include "inverse/recording/registration/registration.hpp"
 #include "runs/frames/measured.hpp"
 
 namespace genio::bench {

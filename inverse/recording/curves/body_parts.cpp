@@ -21,7 +21,27 @@ bool is_tongue_like(const std::string& name) {
   return false;
 }
 
+/// How far to the front a part of that name lies along the tongue; empty where the name tells not.
+std::optional<double> frontness(const std::string& name) {
+  constexpr std::pair<const char*, double> places[] = {{"vallecula", 0}, {"root", 0},  {"body", 1},
+                                                       {"dorsum", 2},    {"blade", 3}, {"tip", 4}};
+  for (const auto& [word, place] : places)
+    if (lower_case(name).find(word) != std::string::npos) return place;
+  return {};
+}
+
 }  // namespace
+
+void FrontInImage::add(const std::string& name, double x) {
+  const auto front = frontness(name);
+  if (!front) return;
+  ++count_, fronts_ += *front, xs_ += x, both_ += *front * x;
+}
+
+std::string FrontInImage::facing() const {
+  const double covariance = count_ > 0 ? both_ - fronts_ * xs_ / count_ : 0;
+  return covariance > 0 ? "right" : covariance < 0 ? "left" : "";
+}
 
 BodyPartTable::BodyPartTable(const std::vector<BodyPartTitle>& titles, const ReadOptions& options,
                              const TablePlace& place)
@@ -121,6 +141,7 @@ void BodyPartTable::add_row(const std::string& index, const std::function<double
     }
     ContourPoint& point = frame.points.emplace_back();
     point.position = {x, not_given, y}, point.kind = "curve";
+    front_.add(part.name, x);
     point.widening = widening_by_likelihood(p);
   }
   unsure_ += dropped;
@@ -129,7 +150,7 @@ void BodyPartTable::add_row(const std::string& index, const std::function<double
 }
 
 RawContours BodyPartTable::contours() {
-  RawContours raw{{}, FileAxes{"px", "", "down"}};
+  RawContours raw{{}, FileAxes{"px", front_.facing(), "down"}};
   raw.file.model_frame = false;
   raw.file.frames = frames_.take();
   auto& remarks = raw.file.remarks;

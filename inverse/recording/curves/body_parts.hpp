@@ -14,6 +14,17 @@ struct BodyPartTitle {
   std::string part, coordinate;  ///< "tongueTip"; x, y or likelihood
 };
 
+/// Which way the face looks in an image, by the names of the tongue's parts and where they lie.
+class FrontInImage {
+ public:
+  void add(const std::string& name, double x);
+  /// "left", "right", or "" where the names tell nothing.
+  std::string facing() const;
+
+ private:
+  double count_ = 0, fronts_ = 0, xs_ = 0, both_ = 0;
+};
+
 /// The contours of a table: a row a frame, and body parts that are the tongue's points.
 class BodyPartTable {
  public:
@@ -41,6 +52,7 @@ class BodyPartTable {
   ReadOptions options_;
   std::vector<Part> all_, parts_;
   FrameRows frames_;
+  FrontInImage front_;
   int rows_ = 0;
   bool from_zero_ = false;
   size_t points_ = 0, unsure_ = 0;

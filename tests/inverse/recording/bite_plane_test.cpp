@@ -87,8 +87,11 @@ TEST_F(BitePlaneOfASession, OneThatThePalateContradictsIsAFault) {
   EXPECT_TRUE(own.judgement.faults.empty());
   const auto other =
       align(model, tongue(), palate, {}, {.bite_plane = file_of(line_at(1.0, 0.03), bowed)});
-  ASSERT_FALSE(other.judgement.faults.empty());
-  EXPECT_NE(other.judgement.faults.back().find("bite plane is tilted"), std::string::npos);
+  EXPECT_TRUE(std::any_of(other.judgement.faults.begin(), other.judgement.faults.end(),
+                          [](const std::string& fault) {
+                            return fault.find("bite plane is tilted") != std::string::npos;
+                          }))
+      << testing::PrintToString(other.judgement.faults);
 }
 
 TEST_F(BitePlaneOfASession, AHyoidPullsTowardsTheModels) {

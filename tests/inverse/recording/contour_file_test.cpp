@@ -65,7 +65,7 @@ TEST_F(ContourFiles, CsvErrorsNameLineAndField) {
             std::string::npos);
   EXPECT_NE(error("frame,point,x_mm,z_mm\n1,1,80\n").find(":2: 3 fields; the header has 4"),
             std::string::npos);
-  EXPECT_NE(error("frame,point,x_mm,z_mm\n").find("no point"), std::string::npos);
+  EXPECT_NE(error("frame,point,x_mm,z_mm\n").find("no row"), std::string::npos);
   EXPECT_NE(error(""), "");
 }
 

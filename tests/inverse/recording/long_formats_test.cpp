@@ -59,6 +59,17 @@ const std::string dlc_header =
     "tongueBody,tongueTip,tongueTip,tongueTip\ncoords,x,y,likelihood,x,y,likelihood,x,y,"
     "likelihood\n";
 
+/// The tip lies where the face looks to.
+TEST_F(Formats, NamesOfDeepLabCutsPartsTellTheFacing) {
+  for (const bool right : {true, false}) {
+    const auto path = write("f.csv", dlc_header + (right ? "0,100,170,1,150,95,1,250,120,1\n"
+                                                         : "0,250,170,1,200,95,1,100,120,1\n"));
+    const auto raw = read_raw(path, pixels());
+    ASSERT_TRUE(raw.axes);
+    EXPECT_EQ(raw.axes->facing, right ? "right" : "left");
+  }
+}
+
 TEST_F(Formats, DeepLabCutTakesTheTonguesPartsThatAreSure) {
   const auto path = write("d.csv", dlc_header +
                                        "0,100,170,0.9,150,95,0.9,250,120,0.9\n"

@@ -1,4 +1,4 @@
-#include "inverse/recording/registration.hpp"
+#include "inverse/recording/registration/registration.hpp"
 
 #include <gtest/gtest.h>
 

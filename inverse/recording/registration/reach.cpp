@@ -1,4 +1,4 @@
-#include "inverse/recording/reach.hpp"
+#include "inverse/recording/registration/reach.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

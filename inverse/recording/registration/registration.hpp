@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "inverse/recording/base/bite_plane.hpp"
-#include "inverse/recording/contour_file.hpp"
-#include "inverse/recording/reach.hpp"
+#include "inverse/recording/registration/reach.hpp"
 
 namespace genio {
 

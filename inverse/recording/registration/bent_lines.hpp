@@ -2,7 +2,7 @@
 // A registration and the shapes of the tongue in each of its frames, found together. Not for other
 // rooms.
 
-#include "inverse/recording/registration_problem.hpp"
+#include "inverse/recording/registration/registration_problem.hpp"
 
 namespace genio {
 

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "inverse/recording/reach.hpp"
-#include "inverse/recording/registration.hpp"
+#include "inverse/recording/registration/reach.hpp"
+#include "inverse/recording/registration/registration.hpp"
 
 namespace genio {
 

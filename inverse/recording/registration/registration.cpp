@@ -1,11 +1,11 @@
-#include "inverse/recording/registration.hpp"
+#include "inverse/recording/registration/registration.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "inverse/recording/bent_lines.hpp"
-#include "inverse/recording/registration_problem.hpp"
+#include "inverse/recording/registration/bent_lines.hpp"
+#include "inverse/recording/registration/registration_problem.hpp"
 
 namespace genio {
 namespace {

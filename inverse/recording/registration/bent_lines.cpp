@@ -1,4 +1,4 @@
-#include "inverse/recording/bent_lines.hpp"
+#include "inverse/recording/registration/bent_lines.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "inverse/recording/registration_problem.hpp"
+#include "inverse/recording/registration/registration_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
