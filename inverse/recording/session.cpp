@@ -120,6 +120,20 @@ Candidate candidate(const Model& model, const TongueReach& reach, const Traces& 
   return c;
 }
 
+/// By how much the rest of the recording contradicts its bite plane [rad]; 0 where it does not. The
+/// registration follows a bite plane, so that one without it has to tell.
+double contradiction(const Model& model, const TongueReach& reach, Traces session,
+                     const Candidate& best) {
+  if (!best.bite_plane) return 0;
+  if (std::abs(*best.bite_plane) > oblique) return *best.bite_plane;
+  const SessionMarks none;
+  const double plane = *best.bite_plane - best.registration.transform.angle;
+  session.marks = &none;
+  const Registration alone = candidate(model, reach, session, best.reading).registration;
+  const double off = alone.transform.angle + plane;
+  return std::abs(off) > std::hypot(oblique, 3 * alone.tilt_sd) ? off : 0;
+}
+
 std::string described(const Candidate& c, Content content) {
   return fmt::format("'{}' (scale {:.2f}, tilt {:.0f} degrees, cost {:.0f}; {})",
                      c.reading.text(content), c.registration.transform.scale,
@@ -204,17 +218,19 @@ AlignedRecording align(const Model& model, SessionFile target,
       throw InputError(fmt::format(
           "{}: two readings of its axes fit alike, {} and {}; say which by those options",
           target.path, described(best, content), described(said[k], content)));
+  const double bite_plane_off = contradiction(model, reach, session, best);
   AlignedRecording result{turned(std::move(target.file), best.reading),
                           best.registration,
                           best.reading,
                           judgement,
                           best.bite_plane,
                           best.hyoid};
-  if (result.bite_plane && std::abs(*result.bite_plane) > oblique)
-    result.judgement.faults.push_back(fmt::format(
-        "its bite plane is tilted by {:.0f} degrees against the model's occlusal plane, once it is "
-        "registered: is it of the same session?",
-        *result.bite_plane * 180 / std::numbers::pi));
+  if (const double by = bite_plane_off; std::abs(by) > 0)
+    result.judgement.faults.push_back(
+        fmt::format("its bite plane is tilted by {:.0f} degrees against the model's occlusal "
+                    "plane, as {} place "
+                    "it: is it of the same session?",
+                    by * 180 / std::numbers::pi, palate ? "palate and contours" : "the contours"));
   if (result.hyoid && *result.hyoid > far_hyoid)
     result.judgement.faults.push_back(fmt::format(
         "its hyoid lies {:.0f} mm from the model's, once it is registered: is it in the numbers of "

@@ -86,7 +86,7 @@ TEST_F(BitePlaneOfASession, OneThatThePalateContradictsIsAFault) {
       align(model, tongue(), palate, {}, {.bite_plane = file_of(line_at(0, 0.03), bowed)});
   EXPECT_TRUE(own.judgement.faults.empty());
   const auto other =
-      align(model, tongue(), palate, {}, {.bite_plane = file_of(line_at(1.0, 0.03), bowed)});
+      align(model, tongue(), palate, {}, {.bite_plane = file_of(line_at(0.6, 0.03), bowed)});
   EXPECT_TRUE(std::any_of(other.judgement.faults.begin(), other.judgement.faults.end(),
                           [](const std::string& fault) {
                             return fault.find("bite plane is tilted") != std::string::npos;
