@@ -30,7 +30,8 @@ EmgTerm EmgTerm::read_table(const std::string& path) {
     if (fields.size() != 3) lines.fail(fmt::format("{} fields; expected 3", fields.size()));
     Normal activation;
     if (!parse_number(fields[1], activation.mean) || activation.mean < 0 || activation.mean > 1)
-      lines.fail(fmt::format("field mean: {}; expected an activation from 0 to 1", in_quotes(fields[1])));
+      lines.fail(
+          fmt::format("field mean: {}; expected an activation from 0 to 1", in_quotes(fields[1])));
     if (!parse_number(fields[2], activation.sd) || !(activation.sd > 0))
       lines.fail(fmt::format("field sd: {}; expected a number above 0", in_quotes(fields[2])));
     if (!term.emg.emplace(trimmed(fields[0]), activation).second)
