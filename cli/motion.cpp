@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "cli/changed_model.hpp"
 #include "cli/landmarks.hpp"
 #include "cli/result_json.hpp"
 #include "forward/base/elapsed.hpp"
 #include "forward/motion/dynamics.hpp"
 #include "report/motion_report.hpp"
+#include "runs/process/progress_line.hpp"
 
 namespace genio::cli {
 namespace {
@@ -71,6 +74,8 @@ int run_motion(const Model& m, const SimulationOptions& o, const std::string& ou
   options.duration = o.duration, options.step = o.step, options.accuracy = 1e-3 * o.adapt_mm;
   options.scheme = o.scheme == "newmark" ? TimeScheme::newmark()
                                          : TimeScheme::generalised_alpha(o.spectral_radius);
+  LongWork progress("of the motion");
+  options.progress = std::ref(progress);
   Workspace ws(m);
   const Stopwatch watch;
   // Whatever acts without commands has acted for ever.

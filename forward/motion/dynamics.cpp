@@ -200,6 +200,7 @@ void Simulation::run(const Positions& start, Trajectory& result) {
     s = std::move(next);
     history_.push_back(s);
     if (history_.size() > most_order + 2) history_.erase(history_.begin());
+    if (options_.progress) options_.progress(std::min(1.0, s.time / options_.duration));
     const bool grow = options_.accuracy > 0 ? error < options_.accuracy / 10 : true;
     if (grow && dt < options_.step) dt = std::min(2 * dt, options_.step);
   }

@@ -1,6 +1,7 @@
 #pragma once
 // Motion: M a + C v + dPi/dx = 0 over time.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct TimeOptions {
   double tolerance = 1e-6;  ///< residual of each step over the loads (at least 1 mN)
   /// Largest nodal error of a step [m], by Zienkiewicz & Xie (1991); 0: fixed steps.
   double accuracy = 0;
+  std::function<void(double part)> progress = {};  ///< hears how far the motion is, 0 to 1
 };
 
 /// One instant.

@@ -41,4 +41,14 @@ void print_progress(double part, const std::string& what) {
   std::fflush(stderr);
 }
 
+LongWork::LongWork(std::string what) : what_(std::move(what)) {}
+
+void LongWork::operator()(double part) {
+  constexpr double patience_s = 2;
+  const int tenth = int(10 * part);
+  if (tenth == tenth_ || watch_.seconds() < patience_s) return;
+  tenth_ = tenth;
+  print_progress(part, what_);
+}
+
 }  // namespace genio

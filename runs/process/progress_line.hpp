@@ -23,4 +23,16 @@ class ProgressLine {
 /// error, in place on a terminal.
 void print_progress(double part, const std::string& what);
 
+/// Says how far a single piece of work is once it has taken two seconds, at every tenth part.
+class LongWork {
+ public:
+  explicit LongWork(std::string what);
+  void operator()(double part);
+
+ private:
+  std::string what_;
+  int tenth_ = 0;
+  Stopwatch watch_;
+};
+
 }  // namespace genio

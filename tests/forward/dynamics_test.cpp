@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -43,6 +44,18 @@ CommandsOverTime swelling(const Model& m) {
     c.times.push_back(t), c.values.push_back(p);
   }
   return c;
+}
+
+TEST(Dynamics, ProgressGrowsToTheWholeMotion) {
+  const Model m = build_model(free_block(40, 2e-3), "block");
+  std::vector<double> heard;
+  TimeOptions o;
+  o.duration = 0.01, o.step = 2e-3;
+  o.progress = [&](double part) { heard.push_back(part); };
+  ASSERT_TRUE(moved(m, swelling(m), o));
+  ASSERT_EQ(heard.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(heard.begin(), heard.end()));
+  EXPECT_DOUBLE_EQ(heard.back(), 1);
 }
 
 TEST(Dynamics, IsOfSecondOrderInTime) {
