@@ -59,8 +59,9 @@ std::string bytes(T value, bool big) {
 
 std::string binary_ply(bool big) {
   std::string body;
-  for (int k = 0; k < 4; ++k)
-    body += bytes(float(k / 2), big) + bytes(float(k % 2), big) + bytes(1.5f, big) + '\xFF';
+  for (const float x : {0.f, 1.f})
+    for (const float y : {0.f, 1.f})
+      body += bytes(x, big) + bytes(y, big) + bytes(1.5f, big) + '\xFF';
   for (int k = 0; k < 2; ++k)
     body += '\3' + bytes(int32_t(k), big) + bytes(int32_t(1 + 2 * k), big) + bytes(int32_t(2), big);
   return ply(big ? "binary_big_endian" : "binary_little_endian", body);
