@@ -97,16 +97,16 @@ std::vector<std::string> words_of_row(const Cells& cells) {
 }
 
 /// Complaints about the files that a row names.
-void check_files(const InversionOptions& o,
-                 const std::function<void(const char*, std::string)>& fail) {
+void check_files(InversionOptions o, const std::function<void(const char*, std::string)>& fail) {
   const auto check = [&](const char* column, const std::string& path) {
     std::error_code none;
     if (!path.empty() && !fs::exists(path, none)) fail(column, path + ": no such file");
   };
   for (const std::string& file : joined_paths(o.measured.target)) check("recording", file);
-  check("palate", o.measured.palate);
-  check("textgrid", o.measured.choice.textgrid), check("model", o.model);
-  check("options", o.prior);
+  for (const OptionFile& file : files_beside(o)) {
+    const auto own = std::find(columns.begin(), columns.end(), file.option.substr(2));
+    check(own != columns.end() ? own->c_str() : "options", *file.path);
+  }
 }
 
 std::string from_folder(const std::string& folder, const std::string& path) {
@@ -223,8 +223,8 @@ InversionOptions asked_of(const std::vector<std::string>& words, const std::stri
                           const ReadWords& read) {
   InversionOptions o = read(words);
   check(o);
-  for (std::string* path : {&o.measured.palate, &o.measured.choice.textgrid, &o.model, &o.prior})
-    if (!path->empty()) *path = from_folder(folder, *path);
+  for (const OptionFile& file : files_beside(o))
+    if (!file.path->empty()) *file.path = from_folder(folder, *file.path);
   const std::string whole = from_folder(folder, o.measured.target);
   std::vector<std::string> files;
   if (std::error_code none; fs::exists(whole, none)) files = {whole};

@@ -37,6 +37,14 @@ AskedFile asked_target(const std::string& target) {
 
 }  // namespace
 
+std::vector<OptionFile> files_beside(InversionOptions& o) {
+  return {{"--palate", &o.measured.palate},
+          {"--bite-plane", &o.measured.bite_plane},
+          {"--textgrid", &o.measured.choice.textgrid},
+          {"--model", &o.model},
+          {"--prior", &o.prior}};
+}
+
 void check(const InversionOptions& o) {
   if (!(o.movement.knot_s > 0) || !(o.movement.step_s > 0))
     throw InputError("--knot-s and --step-s: must be above 0");

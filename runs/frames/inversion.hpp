@@ -22,6 +22,15 @@ struct InversionOptions {
   bool joint() const { return smooth || dynamic; }
 };
 
+/// A file that an option names.
+struct OptionFile {
+  std::string option;  ///< "--palate"
+  std::string* path;   ///< empty where it is not given
+};
+
+/// The files that are read beside the target: one list for whoever moves or looks for them.
+std::vector<OptionFile> files_beside(InversionOptions& o);
+
 /// Throws InputError naming the option that cannot be.
 void check(const InversionOptions& o);
 

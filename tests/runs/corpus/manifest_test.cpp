@@ -40,6 +40,7 @@ class ManifestOf : public testing::Test {
       if (words[k] == "--target") o.measured.target = words[k + 1];
       if (words[k] == "--palate") o.measured.palate = words[k + 1];
       if (words[k] == "--model") o.model = words[k + 1];
+      if (words[k] == "--bite-plane") o.measured.bite_plane = words[k + 1];
     }
     return o;
   }
@@ -67,6 +68,15 @@ TEST_F(ManifestOf, PathsStartFromItsFolderAndTheModelIsNamed) {
             (Words{"--target", "s1/a.csv", "--starts", "3", "--model", "/dev/null"}));
   EXPECT_EQ(m.rows[0].speaker, "S1");
   EXPECT_EQ(asked_of(m.rows[0].words, m.folder, take).measured.target, folder.path() + "/s1/a.csv");
+}
+
+TEST_F(ManifestOf, FilesOfOptionsStartFromItsFolderToo) {
+  const Manifest m = read("recording,options\ns1/a.csv,--bite-plane a.csv\n");
+  EXPECT_EQ(asked_of(m.rows.at(0).words, m.folder, take).measured.bite_plane,
+            folder.path() + "/a.csv");
+  const std::string none = refusal("recording,options\ns1/a.csv,--bite-plane none.csv\n");
+  EXPECT_NE(none.find("column options"), std::string::npos) << none;
+  EXPECT_NE(none.find("none.csv: no such file"), std::string::npos) << none;
 }
 
 TEST_F(ManifestOf, FilesOfOneTakeAreFoundEach) {
