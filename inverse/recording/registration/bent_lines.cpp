@@ -137,33 +137,33 @@ Normal normal_of(const RegistrationProblem& p, const TongueReach& reach, const P
   return n;
 }
 
-/// The Hessian of v with the shapes eliminated; `right` becomes what is left of its right side.
-Matrix4 eliminated(const Normal& n, double damping, Vector4& right) {
-  Matrix4 a = n.a;
-  a.diagonal() *= 1 + damping;
-  right = -n.g;
+/// The equations of v with the shapes eliminated, and the factors of the shapes' own.
+struct Eliminated {
+  Matrix4 a;
+  Vector4 right;
+  std::vector<Eigen::LLT<Matrix>> shapes;
+};
+
+Eliminated eliminated(const Normal& n, double damping) {
+  Eliminated e{n.a, -n.g, {}};
+  e.a.diagonal() *= 1 + damping;
   for (size_t k = 0; k < n.h.size(); ++k) {
-    if (n.h[k].rows() == 0) continue;
     Matrix h = n.h[k];
     h.diagonal() *= 1 + damping;
-    const Eigen::LLT<Matrix> factor(h);
-    a -= n.b[k].transpose() * factor.solve(n.b[k]);
-    right += n.b[k].transpose() * factor.solve(n.s[k]);
+    const auto& factor = e.shapes.emplace_back(h);
+    if (h.rows() == 0) continue;
+    e.a -= n.b[k].transpose() * factor.solve(n.b[k]);
+    e.right += n.b[k].transpose() * factor.solve(n.s[k]);
   }
-  return a;
+  return e;
 }
 
 Place stepped(const Normal& n, double damping, Place at) {
-  Vector4 right;
-  const Matrix4 a = eliminated(n, damping, right);
-  const Vector4 step = a.ldlt().solve(right);
+  const Eliminated e = eliminated(n, damping);
+  const Vector4 step = e.a.ldlt().solve(e.right);
   Vector4::Map(at.v.data()) += step;
-  for (size_t k = 0; k < n.h.size(); ++k) {
-    if (n.h[k].rows() == 0) continue;
-    Matrix h = n.h[k];
-    h.diagonal() *= 1 + damping;
-    at.shapes[k] -= Eigen::LLT<Matrix>(h).solve(n.s[k] + n.b[k] * step);
-  }
+  for (size_t k = 0; k < n.h.size(); ++k)
+    if (n.h[k].rows() > 0) at.shapes[k] -= e.shapes[k].solve(n.s[k] + n.b[k] * step);
   return at;
 }
 
@@ -187,9 +187,7 @@ BentFit fit_bent_lines(const RegistrationProblem& problem, const TongueReach& re
   }
   BentFit fit{.cost = cost, .v = at.v};
   for (const Vector& shape : at.shapes) fit.lines.push_back(bent(reach, shape));
-  Vector4 unused;
-  fit.spread =
-      eliminated(normal_of(problem, reach, at), 0, unused).ldlt().solve(Matrix4::Identity());
+  fit.spread = eliminated(normal_of(problem, reach, at), 0).a.ldlt().solve(Matrix4::Identity());
   return fit;
 }
 

@@ -15,10 +15,9 @@ double misfit(const std::vector<Vec2>& points, const std::vector<Vec2>& line, do
               const Similarity& s, const Vec2& middle, Eigen::Vector4d& slope) {
   double sum = 0;
   for (const Vec2& q : points) {
-    const Vec2 at = s(q), off = foot_on(line, at).offset, arm = at - middle;
+    const Vec2 at = s(q), off = foot_on(line, at).offset;
     sum += each * off.squaredNorm();
-    slope +=
-        2 * each * Eigen::Vector4d(off[1] * arm[0] - off[0] * arm[1], off.dot(arm), off[0], off[1]);
+    slope += 2 * each * by_registration(at, middle).transpose() * off;
   }
   return sum;
 }
