@@ -49,7 +49,7 @@ print("\n".join(sorted(f for f in chosen if not os.path.basename(f).startswith("
 tidy() {
   local build=build/$1; shift
   xargs -r -P "$(nproc)" -n 1 clang-tidy -p "$build" --quiet --warnings-as-errors='*' \
-        --extra-arg=-Wno-unknown-warning-option "$@" 2> >(grep -v 'warnings\? generated' >&2)
+        --extra-arg=-Wno-unknown-warning-option --extra-arg=-Wno-unused-command-line-argument "$@" 2> >(grep -v 'warnings\? generated' >&2)
 }
 
 if [ "${1:-}" = --all ] || [ "${CI:-}" = true ]; then
