@@ -35,12 +35,17 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
               {.suggested = {"left", "right"}});
   options.add("--y-grows", o.read.up, "up, or down as in images", {.suggested = {"up", "down"}});
   options.add("--axes", o.read.axes,
-              "EMA: the axis that runs back along the head and the one that runs up, as in -x+z");
+              "EMA and scans: the axis that runs back along the head and the one that runs up, as "
+              "in -x+z");
   options.add("--sensors", o.sensors, "EMA: what each is stuck to, 3=dorsum,5=tip",
               {.separator = ','});
   options.add("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say",
               {.positive = true});
-  options.add("--palate", o.palate, "Palate trace of the same session");
+  options.add("--palate", o.palate,
+              "Palate trace of the same session, of a scan the palate's surface");
+  options.add("--palate-format", o.palate_format,
+              "Its format, where it is another than the target's",
+              {.suggested = formats, .only_with = {"--palate"}});
   options.add("--palate-spline", o.palate_spline, "The spline to take there, of several",
               {.only_with = {"--palate"}});
   options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there",

@@ -95,29 +95,33 @@ SurfaceDistance::SurfaceDistance(const TriangleSurface& surface) : tree_(std::ma
 
 SurfaceDistance::~SurfaceDistance() = default;
 
-double SurfaceDistance::operator()(const Vec3& p) const {
+SurfaceDistance::Foot SurfaceDistance::foot(const Vec3& p) const {
   const Tree& t = *tree_;
   Tree::Query query{&t, p};
   Eigen::BVMinimize(t.bvh, query);
   const auto& n = t.surface.triangles[query.triangle];
   const auto& v = t.surface.vertices;
   std::vector<int> touched;
-  Vec3 closest = Vec3::Zero();
+  Foot foot{Vec3::Zero(), t.face_normal[query.triangle], false};
   for (int k = 0; k < 3; ++k) {
-    closest += query.weight[k] * v[n[k]];
+    foot.place += query.weight[k] * v[n[k]];
     if (query.weight[k] > 1e-12) touched.push_back(n[k]);
   }
-  const double d = std::sqrt(query.best);
-  Vec3 normal = t.face_normal[query.triangle];
   if (touched.size() == 1) {
-    if (t.on_rim[touched[0]]) return d;
-    normal = t.vertex_normal[touched[0]];
+    foot.on_rim = t.on_rim[touched[0]];
+    foot.normal = t.vertex_normal[touched[0]];
   } else if (touched.size() == 2) {
     const auto& edge = t.edge_normal.at(std::minmax(touched[0], touched[1]));
-    if (edge.second == 1) return d;
-    normal = edge.first;
+    foot.on_rim = edge.second == 1;
+    foot.normal = edge.first;
   }
-  return normal.dot(p - closest) >= 0 ? d : -d;
+  return foot;
+}
+
+double SurfaceDistance::operator()(const Vec3& p) const {
+  const Foot f = foot(p);
+  const Vec3 off = p - f.place;
+  return f.on_rim || f.normal.dot(off) >= 0 ? off.norm() : -off.norm();
 }
 
 }  // namespace genio

@@ -22,6 +22,14 @@ class SurfaceDistance {
   /// [m]
   double operator()(const Vec3& p) const;
 
+  struct Foot {
+    Vec3 place;  ///< of the surface's point closest to p [m]
+    Vec3
+        normal;  ///< of the face, edge or vertex that it lies on, not of length 1 at the latter two
+    bool on_rim;  ///< at the end of an open surface
+  };
+  Foot foot(const Vec3& p) const;
+
  private:
   struct Tree;
   std::unique_ptr<Tree> tree_;

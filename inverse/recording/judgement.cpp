@@ -19,6 +19,7 @@ constexpr double poor_palate = 3e-3;    // [m]
 constexpr double out_of_reach = 15e-3;  // root mean square from the line at rest [m]
 constexpr double into_bone = 3e-3;      // what noise and another anatomy explain [m]
 constexpr double most_behind = 0.2;     // share of points
+constexpr double unlike = 3e-3;         // root mean square of a scan from what muscles make [m]
 
 double median(std::vector<double> v) {
   if (v.empty()) return 0;
@@ -26,19 +27,44 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
-/// The share of points that lie deep in a bone.
-double behind(const Model& model, const std::vector<std::vector<Vec2>>& contours,
-              const Similarity& s) {
-  size_t all = 0, beyond = 0;
-  for (const auto& contour : contours)
-    for (const Vec2& q : contour) {
-      const Vec2 at = s(q);
-      ++all;
-      beyond += std::any_of(model.contacts.begin(), model.contacts.end(), [&](const auto& c) {
-        return c->distance(Vec3(at[0], 0, at[1])) < -into_bone;
-      });
-    }
-  return all > 0 ? double(beyond) / double(all) : 0;
+/// The share of points in the model's frame that lie deep in a bone.
+double behind(const Model& model, const std::vector<Vec3>& points) {
+  const auto beyond = std::count_if(points.begin(), points.end(), [&](const Vec3& p) {
+    return std::any_of(model.contacts.begin(), model.contacts.end(),
+                       [&](const auto& c) { return c->distance(p) < -into_bone; });
+  });
+  return points.empty() ? 0 : double(beyond) / double(points.size());
+}
+
+/// Faults that a size, a palate, a place and what lies in bone make, whatever was registered.
+void add_common_faults(const Model& model, Judgement& j, double free_scale, double free_gain,
+                       bool has_palate, const char* what) {
+  const auto [least, most] = plausible_scales(model);
+  const auto nobodys = [&, least = least, most = most](double scale) {
+    return !(scale >= least && scale <= most);
+  };
+  // What is believed of the scale holds it near 1; the recording itself may know better.
+  const bool knows = free_gain > telling;
+  if (nobodys(j.scale) || (knows && nobodys(free_scale)))
+    j.faults.push_back(fmt::format(
+        "its scale is {:.2f}, where speakers have {:.2f} to {:.2f}: are the units as said, and is "
+        "the palate of the same session?",
+        knows ? free_scale : j.scale, least, most));
+  if (has_palate && j.palate_rms > poor_palate)
+    j.faults.push_back(
+        fmt::format("the palate lies {:.1f} mm (root mean square) from the model's palate, "
+                    "and at most {:.0f} mm will do: is it the hard palate, of the same session?",
+                    1e3 * j.palate_rms, 1e3 * poor_palate));
+  if (j.behind_palate > most_behind)
+    j.faults.push_back(fmt::format(
+        "{:.0f} % of the points of the {} lie behind palate or jaw: are they the tongue's, "
+        "and the palate the same speaker's?",
+        100 * j.behind_palate, what));
+  if (j.from_rest > out_of_reach)
+    j.faults.push_back(fmt::format(
+        "the points of the {} lie {:.0f} mm from the tongue at rest, and no tongue moves as a "
+        "whole by more than {:.0f} mm: are units, axes and frame as said?",
+        what, 1e3 * j.from_rest, 1e3 * out_of_reach));
 }
 
 }  // namespace
@@ -60,40 +86,37 @@ Judgement judge(const Model& model, const Registration& r,
   for (const auto& contour : contours)
     distances.push_back(rms_distance(r.transform, contour, rest));
   j.from_rest = median(distances);
-  j.behind_palate = behind(model, contours, r.transform);
+  std::vector<Vec3> moved;
+  for (const auto& contour : contours)
+    for (const Vec2& q : contour) {
+      const Vec2 at = r.transform(q);
+      moved.emplace_back(at[0], 0, at[1]);
+    }
+  j.behind_palate = behind(model, moved);
 
-  const auto [least, most] = plausible_scales(model);
-  const auto nobodys = [&, least = least, most = most](double scale) {
-    return !(scale >= least && scale <= most);
-  };
-  // What is believed of the scale holds it near 1; the recording itself may know better.
-  const bool knows = r.free_gain > telling;
-  if (nobodys(j.scale) || (knows && nobodys(r.free_scale)))
-    j.faults.push_back(fmt::format(
-        "its scale is {:.2f}, where speakers have {:.2f} to {:.2f}: are the units as said, and is "
-        "the palate of the same session?",
-        knows ? r.free_scale : j.scale, least, most));
   if (const double tilt = std::abs(j.tilt) * 180 / std::numbers::pi; tilt > most_tilt)
     j.faults.push_back(fmt::format(
         "it is tilted by {:.0f} degrees, and no head is by more than {:.0f}: is up where it was "
         "said to be (--y-grows, --facing, --axes)?",
         tilt, most_tilt));
-  if (has_palate && j.palate_rms > poor_palate)
-    j.faults.push_back(
-        fmt::format("the palate trace lies {:.1f} mm (root mean square) from the model's palate, "
-                    "and at most {:.0f} mm will do: is it a trace of the hard palate, of the same "
-                    "session?",
-                    1e3 * j.palate_rms, 1e3 * poor_palate));
-  if (j.behind_palate > most_behind)
-    j.faults.push_back(fmt::format(
-        "{:.0f} % of the contours' points lie behind palate or jaw: are the contours the tongue's, "
-        "and the palate the same speaker's?",
-        100 * j.behind_palate));
-  if (j.from_rest > out_of_reach)
-    j.faults.push_back(
-        fmt::format("the contours lie {:.0f} mm from the tongue at rest, and no tongue moves as a "
-                    "whole by more than {:.0f} mm: are units, axes and frame as said?",
-                    1e3 * j.from_rest, 1e3 * out_of_reach));
+  add_common_faults(model, j, r.free_scale, r.free_gain, has_palate, "contours");
+  return j;
+}
+
+Judgement judge_scan(const Model& model, const std::vector<Vec3>& points,
+                     const std::optional<ScanRegistration>& r, bool has_palate) {
+  Judgement j{.from_rest = rms_from_surface(facets(model.surface), model.rest, points),
+              .behind_palate = behind(model, points)};
+  if (r) {
+    j.scale = r->pose.scale;
+    j.palate_rms = r->palate_rms, j.off_reach = r->off_reach;
+    if (j.off_reach > unlike)
+      j.faults.push_back(fmt::format(
+          "the scan lies {:.1f} mm (root mean square) from the surfaces that the model's muscles "
+          "make, and at most {:.0f} mm will do: is it a tongue's, and are the units as said?",
+          1e3 * j.off_reach, 1e3 * unlike));
+  }
+  add_common_faults(model, j, r ? r->free_scale : 1, r ? r->free_gain : 0, has_palate, "scan");
   return j;
 }
 

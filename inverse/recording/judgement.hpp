@@ -2,6 +2,7 @@
 // The one test that a registration has to pass before forces are answered.
 
 #include "inverse/recording/registration/registration.hpp"
+#include "inverse/recording/scan_pose/scan_registration.hpp"
 
 namespace genio {
 
@@ -13,6 +14,8 @@ struct Judgement {
   double from_rest = 0;        ///< root mean square distance from the line at rest: median frame
   double off_reach = 0;        ///< from lines that muscles make: median frame
   double behind_palate = 0;    ///< share of points that lie beyond bone
+  /// Of a scan alone: its turns about the axes that run back and up [rad], and sidewards shift.
+  std::optional<Vec3> sideways = {};
   std::vector<std::string> faults = {};  ///< why it is not to be trusted; empty: it passed
 };
 
@@ -25,5 +28,10 @@ std::pair<double, double> plausible_scales(const Model& model);
 /// than 3 mm from the model's palate, or the contours lie beyond bone or out of a tongue's reach.
 Judgement judge(const Model& model, const Registration& registration,
                 const std::vector<std::vector<Vec2>>& contours, bool has_palate);
+
+/// Judges the points of a scan that lie in the model's frame, and how they came there, which is
+/// left out where the caller says so. A scanner may stand as it likes: its tilt is no fault.
+Judgement judge_scan(const Model& model, const std::vector<Vec3>& points,
+                     const std::optional<ScanRegistration>& registration, bool has_palate);
 
 }  // namespace genio

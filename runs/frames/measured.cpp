@@ -9,6 +9,7 @@
 #include "inverse/recording/base/curve_pieces.hpp"
 #include "inverse/recording/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
+#include "inverse/recording/scan_session.hpp"
 #include "runs/frames/unused_options.hpp"
 
 namespace genio {
@@ -32,22 +33,31 @@ bool names_sensors(const std::string& format) {
   return format != "auto" && format_named(format).traits.content == Content::sensors;
 }
 
+/// What is read of the files beside the target as it is of the target.
+ReadOptions beside(ReadOptions read) {
+  read.sensors.clear(), read.columns.clear(), read.points.clear(), read.spline.clear();
+  return read;
+}
+
+std::optional<SessionFile> palate_of(const MeasuredOptions& o, const ReadOptions& read,
+                                     const SessionFile& target) {
+  if (o.palate.empty()) return {};
+  ReadOptions options = beside(read);
+  options.spline = o.palate_spline;
+  if (!o.palate_sensor.empty()) options.sensors[o.palate_sensor] = "palate";
+  // A trace beside sensors is of another format, unless it is a sensor's sweep.
+  if (o.palate_sensor.empty() && names_sensors(o.read.format)) options.format = "auto";
+  if (!o.palate_format.empty()) options.format = o.palate_format;
+  return read_palate(o.palate, options, target);
+}
+
 /// The file beside the model: by its palate, else by its contours.
 AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredOptions& o,
                          const ReadOptions& read) {
-  ReadOptions beside = read;
-  beside.sensors.clear(), beside.columns.clear(), beside.points.clear(), beside.spline.clear();
-  std::optional<SessionFile> palate;
+  std::optional<SessionFile> palate = palate_of(o, read, target);
   SessionMarks marks;
-  if (!o.palate.empty()) {
-    ReadOptions options = beside;
-    options.spline = o.palate_spline;
-    if (!o.palate_sensor.empty()) options.sensors[o.palate_sensor] = "palate";
-    if (o.palate_sensor.empty() && names_sensors(o.read.format)) options.format = "auto";
-    palate = read_palate(o.palate, options, target);
-  }
   if (!o.bite_plane.empty()) {
-    ReadOptions options = beside;
+    ReadOptions options = beside(read);
     for (const std::string& sensor : o.bite_plane_sensors) options.sensors[sensor] = "bite plane";
     marks.bite_plane = read_bite_plane(o.bite_plane, options, target);
   }
@@ -68,8 +78,11 @@ std::string text_of(const RegistrationRecord& r) {
   const std::string hyoid =
       r.hyoid ? fmt::format(", hyoid {:.1f} mm from the model's", 1e3 * *r.hyoid) : "";
   return fmt::format(
-      "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}{}{}; contours {:.1f} mm from rest",
-      r.by_palate ? "palate" : "contours alone", j.scale, degrees(j.tilt), palate, plane, hyoid,
+      "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}{}{}; {} {:.1f} mm from rest",
+      r.by_palate  ? "palate"
+      : j.sideways ? "shape alone"
+                   : "contours alone",
+      j.scale, degrees(j.tilt), palate, plane, hyoid, j.sideways ? "the scan" : "contours",
       1e3 * j.from_rest);
 }
 
@@ -92,8 +105,21 @@ Measured as_given(const Model& model, ContourFile file, const MeasuredOptions& o
                     .axes = "the model's",
                     .by_palate = false,
                     .given = true};
+  if (const auto surface = surface_points(file); !surface.empty()) {
+    const Judgement scan = judge_scan(model, surface, {}, false);
+    if (m.registration.judgement.faults.empty()) m.registration.judgement = scan;
+  }
   m.frames = std::move(file.frames);
   return m;
+}
+
+/// What a registration without a palate leaves open, and what the user is told of it.
+void estimate_along(Measured& m, const HeadPosePrior& head, ContourFile& file) {
+  m.head_pose = head;
+  file.remarks.push_back(fmt::format(
+      "without a palate the head's place is estimated along, within {:.1f} mm and {:.0f} degrees "
+      "(--palate, or --registered where it is known)",
+      1e3 * head.shift_sd, degrees(head.turn_sd)));
 }
 
 Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOptions& o,
@@ -108,16 +134,29 @@ Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOpt
   a.file.remarks.push_back(text_of(m.registration));
   if (const std::string other = of_another(m.registration); !other.empty())
     a.file.remarks.push_back(other);
-  if (o.palate.empty()) {
-    m.head_pose = HeadPosePrior{a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd};
-    a.file.remarks.push_back(fmt::format(
-        "without a palate the head's place is estimated along, within {:.1f} mm and {:.0f} degrees "
-        "(--palate, or --registered where it is known)",
-        1e3 * m.head_pose->shift_sd, m.head_pose->turn_sd * 180 / std::numbers::pi));
-  }
+  if (o.palate.empty())
+    estimate_along(m, {a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd}, a.file);
   for (const std::string& line : a.file.remarks) remark(fmt::format("{}: {}", o.target, line));
   for (const ContourFrame& frame : a.file.frames)
     m.frames.push_back(registered(model, frame, a.registration.transform));
+  return m;
+}
+
+Measured as_scan(const Model& model, SessionFile target, const MeasuredOptions& o,
+                 const ReadOptions& read, const std::function<void(const std::string&)>& remark) {
+  const std::optional<SessionFile> palate = palate_of(o, read, target);
+  AlignedScan a = align_scan(model, std::move(target), palate, read);
+  Measured m;
+  m.registration = {.judgement = a.judgement,
+                    .units = a.file.units,
+                    .axes = a.reading.text(Content::sensors),
+                    .by_palate = palate.has_value()};
+  a.file.remarks.push_back(text_of(m.registration));
+  if (const std::string other = of_another(m.registration); !other.empty())
+    a.file.remarks.push_back(other);
+  if (!palate) estimate_along(m, {a.registration.shift_sd, a.registration.tilt_sd}, a.file);
+  for (const std::string& line : a.file.remarks) remark(fmt::format("{}: {}", o.target, line));
+  m.frames = std::move(a.file.frames);
   return m;
 }
 
@@ -159,6 +198,8 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
     const std::vector<std::string> remarks = file.remarks;
     m = as_given(model(), std::move(file), o);
     for (const std::string& line : remarks) remark(fmt::format("{}: {}", o.target, line));
+  } else if (format.content == Content::surface) {
+    m = as_scan(model(), std::move(target), o, read, remark);
   } else {
     m = as_registered(model(), aligned(model(), std::move(target), o, read), o, remark);
   }

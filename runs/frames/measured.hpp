@@ -17,7 +17,7 @@ namespace genio {
 
 /// As the command line gives them; errors name its options.
 struct MeasuredOptions {
-  std::string target, palate, palate_sensor, palate_spline, bite_plane, hyoid;
+  std::string target, palate, palate_format, palate_sensor, palate_spline, bite_plane, hyoid;
   std::vector<std::string> bite_plane_sensors;
   FrameChoice choice;
   std::vector<std::string> sensors;  ///< "5=tip"

@@ -27,11 +27,17 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
                          {"axes", r.axes},
                          {"by", r.given       ? "given"
                                 : r.by_palate ? "palate"
+                                : j.sideways  ? "shape"
                                               : "contours"},
                          {"doubtful", !j.faults.empty()},
                          {"reason", faults_text(j)},
                          {"forced", r.forced}};
   if (r.by_palate && !r.given) json["palate_rms_mm"] = 1e3 * j.palate_rms;
+  if (j.sideways) {
+    json["roll_deg"] = (*j.sideways)[0] * 180 / std::numbers::pi;
+    json["yaw_deg"] = (*j.sideways)[1] * 180 / std::numbers::pi;
+    json["lateral_mm"] = 1e3 * (*j.sideways)[2];
+  }
   if (r.bite_plane) json["bite_plane_deg"] = *r.bite_plane * 180 / std::numbers::pi;
   if (r.hyoid) json["hyoid_off_mm"] = 1e3 * *r.hyoid;
   return json;

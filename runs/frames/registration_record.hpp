@@ -20,7 +20,8 @@ struct RegistrationRecord {
 };
 
 /// `scale, tilt_deg, shift_mm, palate_rms_mm, bite_plane_deg, hyoid_off_mm, from_rest_mm,
-/// behind_palate, units, axes, by, doubtful, reason, forced`.
+/// behind_palate, units, axes, by, doubtful, reason, forced`; of a scan also `roll_deg, yaw_deg,
+/// lateral_mm`.
 nlohmann::json registration_json(const RegistrationRecord& record);
 
 /// The view with the registration, of which its title tells where it was forced.

@@ -17,9 +17,21 @@ void refuse_unless_sensors(const MeasuredOptions& o, const FormatTraits& format)
       fmt::format("{} is read as {}, which holds no sensors", o.target, format.name);
   if (!o.sensors.empty()) refuse("--sensors", why);
   if (o.read.rate_hz > 0) refuse("--rate-hz", why);
-  if (!o.read.axes.empty()) refuse("--axes", why);
+  if (!o.read.axes.empty() && format.content != Content::surface) refuse("--axes", why);
   if (!o.palate_sensor.empty()) refuse("--palate-sensor", why);
   if (!o.bite_plane_sensors.empty()) refuse("--bite-plane-sensors", why);
+}
+
+void refuse_of_scan(const MeasuredOptions& o, const FormatTraits& format) {
+  if (format.content != Content::surface) return;
+  const std::string why = fmt::format("{} is a scan, whose axes --axes tells", o.target);
+  if (!o.read.facing.empty()) refuse("--facing", why);
+  if (!o.read.up.empty()) refuse("--y-grows", why);
+  const std::string place = o.target + " is a scan, which its palate's surface or its shape places";
+  if (!o.bite_plane.empty()) refuse("--bite-plane", place);
+  if (!o.hyoid.empty()) refuse("--hyoid", place);
+  if (!o.read.axes.empty() && o.registered)
+    refuse("--axes", "--registered says that the file is in the model's frame already");
 }
 
 void refuse_axes(const MeasuredOptions& o, const FormatTraits& format) {
@@ -39,6 +51,7 @@ void refuse_axes(const MeasuredOptions& o, const FormatTraits& format) {
 
 void refuse_unused(const MeasuredOptions& o, const FormatTraits& format, bool registered) {
   refuse_unless_sensors(o, format);
+  refuse_of_scan(o, format);
   if (registered) refuse_axes(o, format);
   if (!o.palate_sensor.empty() && o.palate.empty())
     refuse("--palate-sensor", "it is the sensor of the sweep that --palate gives");

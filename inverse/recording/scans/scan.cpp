@@ -14,14 +14,14 @@ constexpr size_t enough = 400;  // points of a scan
 RawContours read(const std::string& path, const ReadOptions&) {
   const TriangleSurface scan = read_surface(path);
   RawContours raw{{}, FileAxes{"", "left", "up"}};
+  raw.file.model_frame = false;
   ContourFrame& frame = raw.file.frames.emplace_back();
   frame.number = 1;
   const size_t stride = (scan.vertices.size() + enough - 1) / enough;
   for (size_t k = 0; k < scan.vertices.size(); k += stride)
     frame.points.push_back({scan.vertices[k], 0, "surface"});
   raw.file.remarks.push_back(
-      fmt::format("{} of {} vertices of the scan, taken as points of the "
-                  "tongue's surface in the model's frame",
+      fmt::format("{} of {} vertices of the scan, taken as points of the tongue's surface",
                   frame.points.size(), scan.vertices.size()));
   return raw;
 }

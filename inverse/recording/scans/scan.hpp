@@ -3,7 +3,7 @@
 
 namespace genio {
 
-/// 3D scans: the vertices of a PLY, OBJ or STL surface, in the model's frame.
+/// 3D scans: the vertices of a PLY, OBJ or STL surface, in any frame.
 ContourFormat scan_format();
 
 }  // namespace genio
