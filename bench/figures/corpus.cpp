@@ -1,7 +1,6 @@
 #include "bench/figures/corpus.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -23,14 +22,6 @@ namespace genio::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Of all processes that ended below this one, user and system [s].
-double children_seconds() {
-  rusage use{};
-  getrusage(RUSAGE_CHILDREN, &use);
-  const auto time = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return time(use.ru_utime) + time(use.ru_stime);
-}
 
 struct Cost {
   double cpu_s = 0, wall_s = 0;

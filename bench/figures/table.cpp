@@ -16,6 +16,7 @@
 #include "bench/figures/forward/grenoble.hpp"
 #include "bench/figures/forward/robustness.hpp"
 #include "bench/figures/forward/verification.hpp"
+#include "bench/figures/inverse/calibration.hpp"
 #include "bench/figures/inverse/gesture.hpp"
 #include "bench/figures/inverse/inverse.hpp"
 #include "bench/figures/inverse/peer.hpp"
@@ -38,11 +39,10 @@ bool given(const BenchOptions& o, const std::string& name) {
 
 const std::vector<Benchmark>& benchmarks() {
   static const std::vector<Benchmark> all = {
-      forward_bench(),      dynamic_bench(),    robustness_bench(),
-      verification_bench(), inverse_bench(),    reach_bench(),
-      peer_bench(),         gesture_bench(),    discover_bench(),
-      service_bench(),      recordings_bench(), corpus_bench(),
-      ultrasound_bench(),   grenoble_bench(),   grenoble_gravity_bench(),
+      forward_bench(),   dynamic_bench(),     robustness_bench(), verification_bench(),
+      inverse_bench(),   calibration_bench(), reach_bench(),      peer_bench(),
+      gesture_bench(),   discover_bench(),    service_bench(),    recordings_bench(),
+      corpus_bench(),    ultrasound_bench(),  grenoble_bench(),   grenoble_gravity_bench(),
       seed_suite_bench()};
   return all;
 }

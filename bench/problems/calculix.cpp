@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/os.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <sstream>
 
 #include "forward/anatomy/refine.hpp"
+#include "forward/base/elapsed.hpp"
 
 namespace genio::bench {
 namespace {
@@ -21,13 +21,6 @@ namespace fs = std::filesystem;
 /// The 12 edges in the order of CalculiX's 20-node element, after its 8 corners.
 constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                               {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-
-double children_cpu() {
-  rusage u{};
-  getrusage(RUSAGE_CHILDREN, &u);
-  return double(u.ru_utime.tv_sec + u.ru_stime.tv_sec) +
-         1e-6 * double(u.ru_utime.tv_usec + u.ru_stime.tv_usec);
-}
 
 void write_nodes(fmt::ostream& out, const CalculixProblem& p,
                  std::vector<std::vector<int>>& elements, std::vector<Support>& supports) {
@@ -112,13 +105,13 @@ std::optional<CalculixResult> run_calculix(const CalculixProblem& p) {
   if (!mkdtemp(name.data())) return {};
   const fs::path folder = name;
   write_input((folder / "job.inp").string(), p);
-  const double before = children_cpu();
+  const double before = children_seconds();
   const std::string command = fmt::format(
       "cd '{}' && OMP_NUM_THREADS=1 CCX_NPROC_EQUATION_SOLVER=1 OPENBLAS_NUM_THREADS=1 ccx -i job "
       ">job.log 2>&1",
       name);
   const bool ended = std::system(command.c_str()) == 0;
-  CalculixResult result{rest_positions(p.mesh), children_cpu() - before, false};
+  CalculixResult result{rest_positions(p.mesh), children_seconds() - before, false};
   std::ifstream in(folder / "job.dat");
   double reached = 0;
   for (std::string line; std::getline(in, line);) {

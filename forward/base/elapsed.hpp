@@ -13,4 +13,10 @@ class Stopwatch {
   double started_ = now();
 };
 
+/// Processor time of this process, all threads, user and system [s].
+double processor_seconds();
+
+/// The same of all processes that ended below this one.
+double children_seconds();
+
 }  // namespace genio

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -39,14 +38,6 @@ class TaskLock {
  private:
   int file_;
 };
-
-/// Of this process, all threads, user and system [s].
-double processor_seconds() {
-  rusage use{};
-  getrusage(RUSAGE_SELF, &use);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(use.ru_utime) + seconds(use.ru_stime);
-}
 
 /// The last model and what is kept of it from recording to recording.
 struct Tongue {

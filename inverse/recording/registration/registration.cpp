@@ -6,6 +6,7 @@
 
 #include "inverse/recording/registration/bent_lines.hpp"
 #include "inverse/recording/registration/registration_problem.hpp"
+#include "inverse/recording/registration/thin.hpp"
 
 namespace genio {
 namespace {
@@ -14,15 +15,6 @@ namespace {
 // that the contours say less.
 constexpr double alone_weight = 6;
 constexpr size_t enough_frames = 20, enough_points = 24, enough_trace = 60;
-
-/// At most `count` items spread evenly.
-template <class T>
-std::vector<T> thin(const std::vector<T>& all, size_t count) {
-  std::vector<T> some;
-  const double stride = std::max(1.0, double(all.size()) / double(count));
-  for (double i = 0; i < double(all.size()); i += stride) some.push_back(all[size_t(i)]);
-  return some;
-}
 
 RegistrationProblem problem_of(const TongueReach& reach,
                                const std::vector<std::vector<Vec2>>& contours,

@@ -6,6 +6,7 @@
 
 #include "forward/model/model.hpp"
 #include "inverse/recording/registration/postures.hpp"
+#include "inverse/recording/registration/thin.hpp"
 #include "inverse/recording/scan_pose/scan_fit.hpp"
 
 namespace genio {
@@ -19,14 +20,6 @@ constexpr double same_turn = 5 * std::numbers::pi / 180, same_way = 3e-3;
 constexpr int rough_steps = 15, most_steps = 60;
 constexpr size_t refined = 8;    // rough optima that are followed to their end
 constexpr double hopeless = 40;  // cost above the best of one that nobody will ask for
-
-template <class T>
-std::vector<T> thin(const std::vector<T>& all, size_t count) {
-  std::vector<T> some;
-  const double stride = std::max(1.0, double(all.size()) / double(count));
-  for (double i = 0; i < double(all.size()); i += stride) some.push_back(all[size_t(i)]);
-  return some;
-}
 
 Vec3 mean(const std::vector<Vec3>& points) {
   Vec3 sum = Vec3::Zero();

@@ -1,0 +1,66 @@
+#include "bench/figures/inverse/calibration_count.hpp"
+
+#include <algorithm>
+
+#include "bench/problems/clock.hpp"
+#include "forward/tissue/fibres.hpp"
+
+namespace genio::bench {
+namespace {
+
+/// The part of the tongue's muscles that one belongs to.
+std::string group_of(const std::string& muscle) {
+  static const std::map<std::string, std::vector<std::string>> members_of = {
+      {"genioglossus", {"GGP", "GGM", "GGA"}},
+      {"other extrinsic", {"STY", "HG", "PG"}},
+      {"intrinsic", {"VERT", "TRANS", "IL", "SL"}},
+      {"floor", {"GH", "MH"}}};
+  for (const auto& [group, members] : members_of)
+    if (std::find(members.begin(), members.end(), muscle) != members.end()) return group;
+  return "other";
+}
+
+}  // namespace
+
+nlohmann::json CalibrationCount::Share::json() const {
+  return of == 0 ? nlohmann::json() : nlohmann::json(double(inside) / of);
+}
+
+void CalibrationCount::add(const std::vector<Estimate>& muscles,
+                           const std::map<std::string, double>& truth, Verdict verdict,
+                           double rms) {
+  ++targets_, ++answered_;
+  explained_ += verdict == Verdict::explained;
+  rms_.push_back(rms);
+  for (const Estimate& e : muscles) {
+    const std::string both = bilateral_name(e.name);
+    const auto found = truth.find(both);
+    const double force = found == truth.end() ? 0 : found->second / (both == e.name ? 1 : 2);
+    const bool holds = force >= e.low - 1e-9 && force <= e.high + 1e-9;
+    const std::string group = group_of(both);
+    (force > 0 ? active_ : resting_).add(holds);
+    (force > 0 ? active_by_group_ : resting_by_group_)[group].add(holds);
+    if (force > 0) width_ += (e.high - e.low) / e.maximum;
+  }
+}
+
+nlohmann::json CalibrationCount::json() const {
+  nlohmann::json active, resting;
+  for (const auto& [group, share] : active_by_group_) active[group] = share.json();
+  for (const auto& [group, share] : resting_by_group_) resting[group] = share.json();
+  const auto part = [&](int count) {
+    return answered_ == 0 ? nlohmann::json() : nlohmann::json(double(count) / answered_);
+  };
+  return {
+      {"targets", targets_},
+      {"failed", targets_ - answered_},
+      {"explained", part(explained_)},
+      {"rms_mm_median", rms_.empty() ? nlohmann::json() : nlohmann::json(1e3 * median(rms_))},
+      {"active", active_.json()},
+      {"resting", resting_.json()},
+      {"width_of_active", active_.of == 0 ? nlohmann::json() : nlohmann::json(width_ / active_.of)},
+      {"active_by_group", active},
+      {"resting_by_group", resting}};
+}
+
+}  // namespace genio::bench

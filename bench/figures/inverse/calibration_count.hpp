@@ -1,0 +1,41 @@
+#pragma once
+// How often what was said of muscles was true.
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "inverse/posterior/estimate.hpp"
+
+namespace genio::bench {
+
+/// Counts of one kind of target.
+class CalibrationCount {
+ public:
+  /// An answer's estimates against the true forces [N] by bilateral name; each of two sides has
+  /// half.
+  void add(const std::vector<Estimate>& muscles, const std::map<std::string, double>& truth,
+           Verdict verdict, double rms);
+  /// One that did not converge.
+  void add_failure() { ++targets_; }
+
+  /// `targets, failed, explained, rms_mm_median, active, resting, width_of_active, by_group`:
+  /// shares of 90 % intervals that hold the truth, null where there is none, and the mean width of
+  /// those of muscles that act, over the maximum.
+  nlohmann::json json() const;
+
+ private:
+  struct Share {
+    int inside = 0, of = 0;
+    void add(bool holds) { inside += holds, ++of; }
+    nlohmann::json json() const;
+  };
+  int targets_ = 0, answered_ = 0, explained_ = 0;
+  Share active_, resting_;
+  double width_ = 0;
+  std::map<std::string, Share> active_by_group_, resting_by_group_;
+  std::vector<double> rms_;
+};
+
+}  // namespace genio::bench
