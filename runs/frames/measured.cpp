@@ -113,13 +113,13 @@ Measured as_given(const Model& model, ContourFile file, const MeasuredOptions& o
   return m;
 }
 
-/// What a registration without a palate leaves open, and what the user is told of it.
-void estimate_along(Measured& m, const HeadPosePrior& head, ContourFile& file) {
+/// What a registration leaves open of the head's place, and what the user is told of it.
+void estimate_along(Measured& m, const HeadPosePrior& head, bool by_palate, ContourFile& file) {
   m.head_pose = head;
   file.remarks.push_back(fmt::format(
-      "without a palate the head's place is estimated along, within {:.1f} mm and {:.0f} degrees "
-      "(--palate, or --registered where it is known)",
-      1e3 * head.shift_sd, degrees(head.turn_sd)));
+      "the head's place is estimated along, within {:.1f} mm and {:.0f} degrees{} (--registered "
+      "where it is known)",
+      1e3 * head.shift_sd, degrees(head.turn_sd), by_palate ? "" : "; --palate tells more"));
 }
 
 Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOptions& o,
@@ -134,8 +134,8 @@ Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOpt
   a.file.remarks.push_back(text_of(m.registration));
   if (const std::string other = of_another(m.registration); !other.empty())
     a.file.remarks.push_back(other);
-  if (o.palate.empty())
-    estimate_along(m, {a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd}, a.file);
+  estimate_along(m, {a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd}, !o.palate.empty(),
+                 a.file);
   for (const std::string& line : a.file.remarks) remark(fmt::format("{}: {}", o.target, line));
   for (const ContourFrame& frame : a.file.frames)
     m.frames.push_back(registered(model, frame, a.registration.transform));
@@ -154,7 +154,7 @@ Measured as_scan(const Model& model, SessionFile target, const MeasuredOptions& 
   a.file.remarks.push_back(text_of(m.registration));
   if (const std::string other = of_another(m.registration); !other.empty())
     a.file.remarks.push_back(other);
-  if (!palate) estimate_along(m, {a.registration.shift_sd, a.registration.tilt_sd}, a.file);
+  estimate_along(m, {a.registration.shift_sd, a.registration.tilt_sd}, palate.has_value(), a.file);
   for (const std::string& line : a.file.remarks) remark(fmt::format("{}: {}", o.target, line));
   m.frames = std::move(a.file.frames);
   return m;

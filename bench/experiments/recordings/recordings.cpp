@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiments/recordings/spoil.hpp"
+#include "bench/problems/calibration_count.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "inverse/recording/frame_target.hpp"
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 struct Outcome {
   bool refused = false, explained = false;
   std::string said;  ///< the refusal, or the remarks
+  Answer answer = {};
 };
 
 /// Read, registered and its first frame inverted, as `genio invert` does.
@@ -43,8 +45,11 @@ Outcome invert(const Model& model, WrittenSession w, const std::string& folder,
     outcome.said += frame.note;
     const Target target = make_target(model, frame, m.noise);
     if (target.empty()) return outcome;
-    const Answer a = infer_from_starts(model, target, {}, ws);
-    outcome.explained = a.status == InferStatus::converged && a.verdict == Verdict::explained;
+    Prior prior;
+    prior.head_pose = m.head_pose;
+    outcome.answer = infer_from_starts(model, target, prior, ws);
+    outcome.explained = outcome.answer.status == InferStatus::converged &&
+                        outcome.answer.verdict == Verdict::explained;
   } catch (const std::exception& e) {
     outcome.refused = true, outcome.said = e.what();
   }
@@ -70,11 +75,17 @@ Json run_recordings(const BenchOptions& o, const Progress& progress) {
                                 Device::getcontours, Device::table};
   int good_refused = 0, good_explained = 0, spoiled = 0, spoiled_explained = 0, unnamed = 0;
   Json refusals = Json::array(), missed = Json::array();
+  std::map<std::string, CalibrationCount> truths;
+  constexpr const char* device_names[] = {"aaa", "edgetrak", "articulograph", "getcontours",
+                                          "table"};
   std::map<std::string, std::array<int, 3>> kinds;  // cases, explained, unnamed
   for (int k = 0; k < count; ++k) {
     const SyntheticSession session = draw_session(model, devices[k % 5], random);
     const Outcome good = invert(model, written(session), folder, ws);
     good_refused += good.refused, good_explained += good.explained;
+    if (good.answer.status == InferStatus::converged)
+      truths[device_names[k % 5]].add(good.answer.muscles, session.forces.front(),
+                                      good.answer.verdict, good.answer.rms);
     if (good.refused) refusals.push_back({{"session", k}, {"said", good.said}});
     const Spoil& spoil = spoils()[size_t(k / 5) % spoils().size()];
     SyntheticSession bad = session;
@@ -99,6 +110,8 @@ Json run_recordings(const BenchOptions& o, const Progress& progress) {
   Json by_kind;
   for (const auto& [name, n] : kinds)
     by_kind[name] = {{"cases", n[0]}, {"explained", n[1]}, {"unnamed", n[2]}};
+  Json intervals;
+  for (const auto& [device, counted] : truths) intervals[device] = counted.json();
   return {{"good", count},
           {"good_refused", good_refused},
           {"good_explained", good_explained},
@@ -106,6 +119,7 @@ Json run_recordings(const BenchOptions& o, const Progress& progress) {
           {"spoiled_explained", spoiled_explained},
           {"spoiled_unnamed", unnamed},
           {"by_kind", by_kind},
+          {"intervals", intervals},
           {"refusals", refusals},
           {"missed", missed}};
 }

@@ -14,16 +14,25 @@ constexpr double curve_noise = 0.4e-3, sensor_noise = 0.2e-3;  // [m]
 constexpr int points = 42;
 constexpr double px = 0.25e-3;  // a pixel of the images [m]
 
+struct Posture {
+  Positions shape;
+  std::map<std::string, double> forces;
+};
+
 /// A shape of a few muscles at up to 30 % of their maxima.
-Positions posture(const Model& model, Workspace& ws, std::mt19937& random) {
+Posture posture(const Model& model, Workspace& ws, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0, 1);
   const auto commands = muscle_unknowns(model, true);
   for (;;) {
     Vector z = Vector::Zero(Eigen::Index(commands.size()));
-    for (int i : some_muscles(commands.size(), random, uniform)) z[i] = 0.3 * uniform(random);
+    std::map<std::string, double> forces;
+    for (int i : some_muscles(commands.size(), random, uniform)) {
+      z[i] = 0.3 * uniform(random);
+      forces[commands[size_t(i)].name] = z[i] * commands[size_t(i)].scale;
+    }
     const Equilibrium e = solve_equilibrium(
         model, apply_unknowns(commands, z, default_parameters(model)), model.rest, ws);
-    if (e) return e.x;
+    if (e) return {e.x, std::move(forces)};
   }
 }
 
@@ -111,7 +120,8 @@ SyntheticSession draw_session(const Model& model, Device device, std::mt19937& r
   s.device = device;
   const bool sensors = device == Device::articulograph;
   for (int f = 0; f < frames; ++f) {
-    const Positions x = posture(model, ws, random);
+    const auto [x, forces] = posture(model, ws, random);
+    s.forces.push_back(forces);
     auto line = sensors ? sensor_places(model, x) : TongueLine(model).sample(x, points + 12);
     if (!sensors) line.erase(line.begin(), line.begin() + 12);  // ultrasound misses the underside
     for (Vec2& q : line)

@@ -1,6 +1,7 @@
 #pragma once
 // Recordings of the model itself, as devices write them.
 
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -19,11 +20,12 @@ enum class Device { aaa, edgetrak, getcontours, articulograph, table };
 /// plane, and what the device makes of them.
 struct SyntheticSession {
   Device device = Device::aaa;
-  std::vector<std::vector<Vec2>> frames;          ///< (x back, z up) in the model's frame [m]
-  std::vector<Vec2> palate;                       ///< the same; sensors are swept along it
-  Similarity target_to_device, palate_to_device;  ///< alike but where a palate was swapped
-  AxesReading target_axes, palate_axes;           ///< of the files
-  double target_unit = 1e-3, palate_unit = 1e-3;  ///< [m] of a number in them
+  std::vector<std::vector<Vec2>> frames;  ///< (x back, z up) in the model's frame [m]
+  std::vector<std::map<std::string, double>> forces = {};  ///< of each, by bilateral name [N]
+  std::vector<Vec2> palate;                                ///< the same; sensors are swept along it
+  Similarity target_to_device, palate_to_device;           ///< alike but where a palate was swapped
+  AxesReading target_axes, palate_axes;                    ///< of the files
+  double target_unit = 1e-3, palate_unit = 1e-3;           ///< [m] of a number in them
 };
 
 /// Draws one: postures of two to five muscles, a speaker's size, a head's tilt and noise.

@@ -9,7 +9,7 @@
 #include <optional>
 #include <random>
 
-#include "bench/figures/inverse/calibration_count.hpp"
+#include "bench/problems/calibration_count.hpp"
 #include "bench/problems/clock.hpp"
 #include "bench/problems/erring_truth.hpp"
 #include "bench/problems/measured_shape.hpp"

@@ -1,4 +1,4 @@
-#include "bench/figures/inverse/calibration_count.hpp"
+#include "bench/problems/calibration_count.hpp"
 
 #include <algorithm>
 
