@@ -34,7 +34,12 @@ bool names_sensors(const std::string& format) {
 
 /// The file beside the model: by its palate, else by its contours.
 AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredOptions& o,
-                         const ReadOptions& read) {
+                         const ReadOptions& read,
+                         const std::function<void(const std::string&)>& remark) {
+  const auto tell = [&](const SessionFile& file) {
+    for (const std::string& line : file.file.remarks)
+      remark(fmt::format("{}: {}", file.path, line));
+  };
   ReadOptions beside = read;
   beside.sensors.clear(), beside.columns.clear(), beside.points.clear(), beside.spline.clear();
   std::optional<SessionFile> palate;
@@ -45,13 +50,19 @@ AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredO
     if (!o.palate_sensor.empty()) options.sensors[o.palate_sensor] = "palate";
     if (o.palate_sensor.empty() && names_sensors(o.read.format)) options.format = "auto";
     palate = read_palate(o.palate, options, target);
+    tell(*palate);
   }
   if (!o.bite_plane.empty()) {
     ReadOptions options = beside;
     for (const std::string& sensor : o.bite_plane_sensors) options.sensors[sensor] = "bite plane";
     marks.bite_plane = read_bite_plane(o.bite_plane, options, target);
+    tell(*marks.bite_plane);
   }
-  if (!o.hyoid.empty()) marks.hyoid = hyoid_at(o.hyoid, read, target);
+  marks.points = head_points_of(target,
+                                {{HeadPoint::hyoid, o.hyoid},
+                                 {HeadPoint::short_tendon, o.short_tendon},
+                                 {HeadPoint::mandible, o.jaw_shadow}},
+                                !o.ignore_marks, read);
   return align(model, std::move(target), palate, read, marks);
 }
 
@@ -65,11 +76,12 @@ std::string text_of(const RegistrationRecord& r) {
       r.bite_plane
           ? fmt::format(", bite plane {:.1f} degrees off the model's", degrees(*r.bite_plane))
           : "";
-  const std::string hyoid =
-      r.hyoid ? fmt::format(", hyoid {:.1f} mm from the model's", 1e3 * *r.hyoid) : "";
+  std::string points;
+  for (const auto& [point, off] : r.head_points)
+    points += fmt::format(", {} {:.1f} mm from the model's", name_of(point), 1e3 * off);
   return fmt::format(
       "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}{}{}; contours {:.1f} mm from rest",
-      r.by_palate ? "palate" : "contours alone", j.scale, degrees(j.tilt), palate, plane, hyoid,
+      r.by_palate ? "palate" : "contours alone", j.scale, degrees(j.tilt), palate, plane, points,
       1e3 * j.from_rest);
 }
 
@@ -104,7 +116,7 @@ Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOpt
                     .axes = a.reading.text(a.file.format.content),
                     .by_palate = !o.palate.empty(),
                     .bite_plane = a.bite_plane,
-                    .hyoid = a.hyoid};
+                    .head_points = a.head_points};
   a.file.remarks.push_back(text_of(m.registration));
   if (const std::string other = of_another(m.registration); !other.empty())
     a.file.remarks.push_back(other);
@@ -151,6 +163,8 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   refuse_unused(o, format, target.file.model_frame);
   refuse_unused_pixels(o, target.axes);
   refuse_unused_noise(o, target.file.frames);
+  // A wrong choice is said before the registration takes its time.
+  chosen_frames(target.file.frames, o.choice, o.target, [](const std::string&) {});
   Measured m;
   if (target.file.model_frame || o.registered) {
     ContourFile file = target.file.model_frame
@@ -160,7 +174,7 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
     m = as_given(model(), std::move(file), o);
     for (const std::string& line : remarks) remark(fmt::format("{}: {}", o.target, line));
   } else {
-    m = as_registered(model(), aligned(model(), std::move(target), o, read), o, remark);
+    m = as_registered(model(), aligned(model(), std::move(target), o, read, remark), o, remark);
   }
   heed(m, o, remark);
   m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : format.noise;
