@@ -109,6 +109,31 @@ SessionFile point_at(HeadPoint point, const std::string& text, const SessionFile
   return in_numbers_of(target, {Vec2(x, y)}, fmt::format("{} {}", option_of(point), text), options);
 }
 
+/// Contours alone follow a point that is far off. Where a recording fails by what it names, and
+/// would pass without, a single point is left out and several are blamed.
+void heed_contradiction(AlignedRecording& a, SessionMarks& marks, std::vector<std::string>& remarks,
+                        const std::function<AlignedRecording(const SessionMarks&)>& align) {
+  SessionMarks given = marks;
+  std::vector<std::string> named;
+  std::erase_if(given.points, [&](const auto& entry) {
+    if (entry.second.by_name) named.emplace_back(name_of(entry.first));
+    return entry.second.by_name;
+  });
+  if (named.empty() || a.judgement.faults.empty()) return;
+  AlignedRecording without = align(given);
+  if (!without.judgement.faults.empty()) return;
+  if (named.size() == 1) {
+    remarks.push_back(
+        fmt::format("its {} is left out: it contradicts the contours", named.front()));
+    a = std::move(without), marks = std::move(given);
+  } else {
+    a.judgement.faults.push_back(
+        fmt::format("what it shows of the head contradicts the contours: {} (--ignore-marks leaves "
+                    "that out)",
+                    fmt::join(named, ", ")));
+  }
+}
+
 }  // namespace
 
 std::vector<Vec2> trace_of(const ContourFile& palate) {
@@ -186,6 +211,7 @@ AlignedRecording by_marks_that_agree(
       remarks.push_back(
           fmt::format("left out as it lies far from the model's, once it is registered: {}", far));
   if (!faults.empty()) a.judgement.faults.push_back(fault_of(faults));
+  else heed_contradiction(a, marks, remarks, align);
   if (const std::string used = remark_of(marks.points); !used.empty()) remarks.push_back(used);
   a.file.remarks.insert(a.file.remarks.end(), remarks.begin(), remarks.end());
   return a;
