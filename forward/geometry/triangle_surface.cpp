@@ -150,14 +150,9 @@ std::vector<std::vector<Eigen::Vector2d>> midsagittal_cut(const TriangleSurface&
     for (size_t i = 0; i + 1 < l.size(); ++i) sum += (l[i + 1] - l[i]).norm();
     return sum;
   };
-  // Each length once: a long line that many short ones are held against would take a square.
-  std::vector<std::pair<double, size_t>> order;
-  for (const auto& line : lines) order.emplace_back(length(line), order.size());
-  std::sort(order.begin(), order.end(),
-            [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<std::vector<Eigen::Vector2d>> sorted;
-  for (const auto& [by_length, k] : order) sorted.push_back(std::move(lines[k]));
-  return sorted;
+  std::sort(lines.begin(), lines.end(),
+            [&](const auto& a, const auto& b) { return length(a) > length(b); });
+  return lines;
 }
 
 }  // namespace genio

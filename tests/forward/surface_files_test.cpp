@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <bit>
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -173,34 +172,6 @@ TEST_F(SurfaceFiles, AnEdgeOfManyTrianglesTakesNoLonger) {
   for (int k = 0; k < 20000; ++k)
     text += "v 0 1 " + std::to_string(k) + "\nf 1 2 " + std::to_string(k + 3) + "\n";
   EXPECT_EQ(read("fan.obj", text).triangles.size(), 20000u);
-}
-
-/// A strip along x across the plane, beside bits of surface that cross it alone.
-TriangleSurface strip_and_bits(int count) {
-  TriangleSurface s;
-  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-    const int first = int(s.vertices.size());
-    s.vertices.insert(s.vertices.end(), {a, b, c});
-    s.triangles.push_back({first, first + 1, first + 2});
-  };
-  for (int k = 0; k <= count; ++k) s.vertices.emplace_back(k, k % 2 == 0 ? -1 : 1, 0);
-  for (int k = 0; k + 2 <= count; ++k) s.triangles.push_back({k, k + 1, k + 2});
-  for (int k = 0; k < count; ++k) add({k + 0.0, -1, 5}, {k + 0.0, 1, 5}, {k + 0.1, 1, 5});
-  return s;
-}
-
-TEST(MidsagittalCut, TakesNoSquareOfTheNumberOfItsLines) {
-  const auto seconds = [](int count) {
-    const TriangleSurface s = strip_and_bits(count);
-    const auto start = std::chrono::steady_clock::now();
-    const auto lines = midsagittal_cut(s);
-    EXPECT_EQ(lines.size(), size_t(count) + 1);
-    EXPECT_EQ(lines.front().size(), size_t(count));
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  seconds(1000);
-  const double few = seconds(4000);
-  EXPECT_LT(seconds(32000), 8 * 4 * few + 0.2);  // a square would take 64 times as long
 }
 
 }  // namespace
