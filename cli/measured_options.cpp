@@ -57,10 +57,17 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
               {.separator = ',', .only_with = {"--bite-plane"}});
   options.add("--hyoid", o.hyoid,
               "X,Y of the hyoid or its shadow, in the numbers of the target's contours");
+  options.add("--short-tendon", o.short_tendon,
+              "The same of the genioglossus' short tendon, where it leaves the jaw");
+  options.add("--jaw-shadow", o.jaw_shadow,
+              "The same of the mandible's lower edge, where its shadow begins");
+  options.flag("--ignore-marks", o.ignore_marks,
+               "Leave out hyoid, short tendon and mandible that the target has by name");
   options.flag("--force-registration", o.force,
                "Answer although the registration fails its test; every result says so");
-  options.flag("--registered", o.registered, "The file is in the model's frame already",
-               {.not_with = {"--palate", "--bite-plane", "--hyoid"}});
+  options.flag(
+      "--registered", o.registered, "The file is in the model's frame already",
+      {.not_with = {"--palate", "--bite-plane", "--hyoid", "--short-tendon", "--jaw-shadow"}});
   options.add("--frames", o.choice.frames, "A-B, counted from 1, or times as in 1.2s-1.8s");
   options.add("--textgrid", o.choice.textgrid,
               "Praat TextGrid: one frame a labelled interval or point, with its label");

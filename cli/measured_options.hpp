@@ -6,7 +6,8 @@ namespace genio::cli {
 
 /// Declares --target, --frames, --palate, --noise-mm, and what files do not say: --format, --units,
 /// --mm-per-px, --facing, --y-grows, --sensors, --palate-sensor, --rate-hz, --registered,
-/// --bite-plane, --hyoid, --columns, --spline; and which frames: --frames, --textgrid, --tier,
+/// --bite-plane, --hyoid, --short-tendon, --jaw-shadow, --ignore-marks, --columns, --spline; and
+/// which frames: --frames, --textgrid, --tier,
 /// --labels.
 void add_measured_options(Options& options, MeasuredOptions& o);
 

@@ -19,7 +19,6 @@ constexpr double place_sd = 10e-3;  // of a marked point about its place at rest
 constexpr double alike = 6, alike_alone = 12;
 constexpr double far_better = 12;                        // what it takes to doubt what was said
 constexpr double oblique = 18 * std::numbers::pi / 180;  // of a bite plane that is doubted
-constexpr double far_hyoid = 3 * hyoid_sd;               // [m] of one that is doubted
 constexpr double unusual = 15;  // cost of an articulograph whose third axis is not up
 
 struct Candidate {
@@ -27,7 +26,8 @@ struct Candidate {
   bool said = false;  ///< agrees with what the caller and, of curves, the format say
   Registration registration = {};
   double cost = 0;  ///< of the registration and of marked points about their places
-  std::optional<double> bite_plane = {}, hyoid = {};  ///< as of AlignedRecording
+  std::optional<double> bite_plane = {};         ///< as of AlignedRecording
+  std::map<HeadPoint, double> head_points = {};  ///< the same
 };
 
 /// What a session's files hold; those beside the target may be absent.
@@ -112,8 +112,8 @@ Candidate candidate(const Model& model, const TongueReach& reach, const Traces& 
       palate ? register_by_palate(model, reach, trace_of(turned(*palate, reading)), contours, marks)
              : register_by_contours(reach, contours, marks);
   if (marks.bite_plane) c.bite_plane = c.registration.transform.angle + marks.bite_plane->tilt;
-  if (marks.hyoid)
-    c.hyoid = (c.registration.transform(marks.hyoid->in_recording) - marks.hyoid->in_model).norm();
+  for (const auto& [point, known] : marks.points)
+    c.head_points[point] = (c.registration.transform(known.in_recording) - known.in_model).norm();
   c.cost = c.registration.cost + place_cost(model, file, c.registration.transform);
   if (target.format.content == Content::sensors && !(reading.up == 2 && reading.up_grows))
     c.cost += unusual;
@@ -178,9 +178,12 @@ SessionFile read_bite_plane(const std::string& path, ReadOptions options,
   return read_trace(path, std::move(options), target);
 }
 
-AlignedRecording align(const Model& model, SessionFile target,
-                       const std::optional<SessionFile>& palate, const ReadOptions& options,
-                       const SessionMarks& marks) {
+namespace {
+
+/// align() that takes all marks for true.
+AlignedRecording align_by_all(const Model& model, SessionFile target,
+                              const std::optional<SessionFile>& palate, const ReadOptions& options,
+                              const SessionMarks& marks) {
   const Content content = target.file.format.content;
   const ContourFile* trace = palate ? &palate->file : nullptr;
   if (trace && trace_of(*trace).empty())
@@ -224,18 +227,13 @@ AlignedRecording align(const Model& model, SessionFile target,
                           best.reading,
                           judgement,
                           best.bite_plane,
-                          best.hyoid};
+                          best.head_points};
   if (const double by = bite_plane_off; std::abs(by) > 0)
     result.judgement.faults.push_back(
         fmt::format("its bite plane is tilted by {:.0f} degrees against the model's occlusal "
                     "plane, as {} place "
                     "it: is it of the same session?",
                     by * 180 / std::numbers::pi, palate ? "palate and contours" : "the contours"));
-  if (result.hyoid && *result.hyoid > far_hyoid)
-    result.judgement.faults.push_back(fmt::format(
-        "its hyoid lies {:.0f} mm from the model's, once it is registered: is it in the numbers of "
-        "the contours?",
-        1e3 * *result.hyoid));
   if (!others.empty() && others.front().cost + far_better < best.cost)
     result.judgement.faults.push_back(
         fmt::format("its axes were read as {}, and {} fits better: is it a mirror image?",
@@ -249,6 +247,16 @@ AlignedRecording align(const Model& model, SessionFile target,
                   said.size() > 1 ? "fits best of what may be" : "as said or by its format"));
   remark_order(result.file);
   return result;
+}
+
+}  // namespace
+
+AlignedRecording align(const Model& model, SessionFile target,
+                       const std::optional<SessionFile>& palate, const ReadOptions& options,
+                       const SessionMarks& marks) {
+  return by_marks_that_agree(model, marks, [&](const SessionMarks& some) {
+    return align_by_all(model, target, palate, options, some);
+  });
 }
 
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file) {

@@ -27,14 +27,27 @@ SessionFile read_palate(const std::string& path, ReadOptions options, const Sess
 SessionFile read_bite_plane(const std::string& path, ReadOptions options,
                             const SessionFile& target);
 
-/// The hyoid, or its shadow, at "X,Y" in the numbers of the target's contours. Throws InputError
-/// where it is none, or the target holds no curves.
-SessionFile hyoid_at(const std::string& text, const ReadOptions& options,
-                     const SessionFile& target);
+/// A point of the head in a session.
+struct SessionPoint {
+  SessionFile file;      ///< one frame, of one point, each time that it was seen
+  bool by_name = false;  ///< the target has it under its name; else the caller gives it
+};
+using SessionPoints = std::map<HeadPoint, SessionPoint>;
+
+/// The option that gives a point of the head: "--hyoid", "--short-tendon" or "--jaw-shadow".
+const char* option_of(HeadPoint point);
+
+/// Those that are `given` as "X,Y" in the numbers of the target's contours, and where `named` is
+/// true others that the target has under their names. Throws InputError where a text is no such
+/// point, or the target holds no curves.
+SessionPoints head_points_of(const SessionFile& target,
+                             const std::map<HeadPoint, std::string>& given, bool named,
+                             const ReadOptions& options);
 
 /// Files and points of a session beside target and palate.
 struct SessionMarks {
-  std::optional<SessionFile> bite_plane = {}, hyoid = {};
+  std::optional<SessionFile> bite_plane = {};
+  SessionPoints points = {};
 };
 
 /// A recording with its registration, and the reading of the axes that it belongs to.
@@ -45,12 +58,15 @@ struct AlignedRecording {
   Judgement judgement;
   /// The bite plane's tilt against the model's occlusal plane, where there is one [rad].
   std::optional<double> bite_plane = {};
-  std::optional<double> hyoid = {};  ///< from the model's hyoid, once registered [m]
+  std::map<HeadPoint, double> head_points = {};  ///< from the model's, once registered [m]
 };
 
 /// Finds the axes once for all files of the session. Every reading that the caller allows is
 /// registered, by the palate where there is one, else by the contours alone, and by bite plane and
-/// hyoid where there are any; the cheapest is taken. A bite plane far from the model's is a fault.
+/// points of the head where there are any; the cheapest is taken. A bite plane far from the model's
+/// is a fault, and so is a point that the caller gives. One that the target has under its name is
+/// left out with a remark, but where none agrees with the rest that is a fault too. Throws
+/// InputError where the caller gives a point that the model lacks.
 /// A reading that the format or the caller excludes and that fits far better is a fault of the
 /// judgement. Throws InputError that names both where two allowed ones fit alike.
 AlignedRecording align(const Model& model, SessionFile target,

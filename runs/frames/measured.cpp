@@ -39,8 +39,14 @@ ReadOptions beside(ReadOptions read) {
   return read;
 }
 
+using Remark = std::function<void(const std::string&)>;
+
+void tell(const std::string& path, const ContourFile& file, const Remark& remark) {
+  for (const std::string& line : file.remarks) remark(fmt::format("{}: {}", path, line));
+}
+
 std::optional<SessionFile> palate_of(const MeasuredOptions& o, const ReadOptions& read,
-                                     const SessionFile& target) {
+                                     const SessionFile& target, const Remark& remark) {
   if (o.palate.empty()) return {};
   ReadOptions options = beside(read);
   options.spline = o.palate_spline;
@@ -48,20 +54,27 @@ std::optional<SessionFile> palate_of(const MeasuredOptions& o, const ReadOptions
   // A trace beside sensors is of another format, unless it is a sensor's sweep.
   if (o.palate_sensor.empty() && names_sensors(o.read.format)) options.format = "auto";
   if (!o.palate_format.empty()) options.format = o.palate_format;
-  return read_palate(o.palate, options, target);
+  std::optional<SessionFile> palate = read_palate(o.palate, options, target);
+  tell(palate->path, palate->file, remark);
+  return palate;
 }
 
 /// The file beside the model: by its palate, else by its contours.
 AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredOptions& o,
-                         const ReadOptions& read) {
-  std::optional<SessionFile> palate = palate_of(o, read, target);
+                         const ReadOptions& read, const Remark& remark) {
+  const std::optional<SessionFile> palate = palate_of(o, read, target, remark);
   SessionMarks marks;
   if (!o.bite_plane.empty()) {
     ReadOptions options = beside(read);
     for (const std::string& sensor : o.bite_plane_sensors) options.sensors[sensor] = "bite plane";
     marks.bite_plane = read_bite_plane(o.bite_plane, options, target);
+    tell(marks.bite_plane->path, marks.bite_plane->file, remark);
   }
-  if (!o.hyoid.empty()) marks.hyoid = hyoid_at(o.hyoid, read, target);
+  marks.points = head_points_of(target,
+                                {{HeadPoint::hyoid, o.hyoid},
+                                 {HeadPoint::short_tendon, o.short_tendon},
+                                 {HeadPoint::mandible, o.jaw_shadow}},
+                                !o.ignore_marks, read);
   return align(model, std::move(target), palate, read, marks);
 }
 
@@ -75,14 +88,15 @@ std::string text_of(const RegistrationRecord& r) {
       r.bite_plane
           ? fmt::format(", bite plane {:.1f} degrees off the model's", degrees(*r.bite_plane))
           : "";
-  const std::string hyoid =
-      r.hyoid ? fmt::format(", hyoid {:.1f} mm from the model's", 1e3 * *r.hyoid) : "";
+  std::string points;
+  for (const auto& [point, off] : r.head_points)
+    points += fmt::format(", {} {:.1f} mm from the model's", name_of(point), 1e3 * off);
   return fmt::format(
       "registered by the {}: scale {:.3f}, tilt {:.1f} degrees{}{}{}; {} {:.1f} mm from rest",
       r.by_palate  ? "palate"
       : j.sideways ? "shape alone"
                    : "contours alone",
-      j.scale, degrees(j.tilt), palate, plane, hyoid, j.sideways ? "the scan" : "contours",
+      j.scale, degrees(j.tilt), palate, plane, points, j.sideways ? "the scan" : "contours",
       1e3 * j.from_rest);
 }
 
@@ -123,28 +137,28 @@ void estimate_along(Measured& m, const HeadPosePrior& head, bool by_palate, Cont
 }
 
 Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOptions& o,
-                       const std::function<void(const std::string&)>& remark) {
+                       const Remark& remark) {
   Measured m;
   m.registration = {.judgement = a.judgement,
                     .units = a.file.units,
                     .axes = a.reading.text(a.file.format.content),
                     .by_palate = !o.palate.empty(),
                     .bite_plane = a.bite_plane,
-                    .hyoid = a.hyoid};
+                    .head_points = a.head_points};
   a.file.remarks.push_back(text_of(m.registration));
   if (const std::string other = of_another(m.registration); !other.empty())
     a.file.remarks.push_back(other);
   estimate_along(m, {a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd}, !o.palate.empty(),
                  a.file);
-  for (const std::string& line : a.file.remarks) remark(fmt::format("{}: {}", o.target, line));
+  tell(o.target, a.file, remark);
   for (const ContourFrame& frame : a.file.frames)
     m.frames.push_back(registered(model, frame, a.registration.transform));
   return m;
 }
 
 Measured as_scan(const Model& model, SessionFile target, const MeasuredOptions& o,
-                 const ReadOptions& read, const std::function<void(const std::string&)>& remark) {
-  const std::optional<SessionFile> palate = palate_of(o, read, target);
+                 const ReadOptions& read, const Remark& remark) {
+  const std::optional<SessionFile> palate = palate_of(o, read, target, remark);
   AlignedScan a = align_scan(model, std::move(target), palate, read);
   Measured m;
   m.registration = {.judgement = a.judgement,
@@ -155,14 +169,13 @@ Measured as_scan(const Model& model, SessionFile target, const MeasuredOptions& 
   if (const std::string other = of_another(m.registration); !other.empty())
     a.file.remarks.push_back(other);
   estimate_along(m, {a.registration.shift_sd, a.registration.tilt_sd}, palate.has_value(), a.file);
-  for (const std::string& line : a.file.remarks) remark(fmt::format("{}: {}", o.target, line));
+  tell(o.target, a.file, remark);
   m.frames = std::move(a.file.frames);
   return m;
 }
 
 /// Ends the work, or only says so where the caller insists.
-void heed(Measured& m, const MeasuredOptions& o,
-          const std::function<void(const std::string&)>& remark) {
+void heed(Measured& m, const MeasuredOptions& o, const Remark& remark) {
   if (m.registration.judgement.faults.empty()) return;
   if (!o.force) throw RegistrationFailed(o.target, m.registration);
   m.registration.forced = true;
@@ -190,6 +203,8 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   refuse_unused(o, format, target.file.model_frame);
   refuse_unused_pixels(o, target.axes);
   refuse_unused_noise(o, target.file.frames);
+  // A wrong choice is said before the registration takes its time.
+  chosen_frames(target.file.frames, o.choice, o.target, [](const std::string&) {});
   Measured m;
   if (target.file.model_frame || o.registered) {
     ContourFile file = target.file.model_frame
@@ -201,7 +216,7 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   } else if (format.content == Content::surface) {
     m = as_scan(model(), std::move(target), o, read, remark);
   } else {
-    m = as_registered(model(), aligned(model(), std::move(target), o, read), o, remark);
+    m = as_registered(model(), aligned(model(), std::move(target), o, read, remark), o, remark);
   }
   heed(m, o, remark);
   m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : format.noise;

@@ -17,14 +17,16 @@ namespace genio {
 
 /// As the command line gives them; errors name its options.
 struct MeasuredOptions {
-  std::string target, palate, palate_format, palate_sensor, palate_spline, bite_plane, hyoid;
+  std::string target, palate, palate_format, palate_sensor, palate_spline, bite_plane;
+  std::string hyoid, short_tendon, jaw_shadow;  ///< "X,Y" in the target's numbers
   std::vector<std::string> bite_plane_sensors;
   FrameChoice choice;
   std::vector<std::string> sensors;  ///< "5=tip"
   std::vector<std::string> columns;  ///< "frame=uniqueframe", of the target's table
   ReadOptions read;
-  bool registered = false;  ///< already in the model's frame
-  bool force = false;       ///< answer also on a registration that fails its test
+  bool ignore_marks = false;  ///< leave out points of the head that the target names
+  bool registered = false;    ///< already in the model's frame
+  bool force = false;         ///< answer also on a registration that fails its test
   double noise_mm = 0;
 };
 

@@ -3,10 +3,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 namespace genio {
+
+namespace {
+
+/// "short_tendon_off_mm"
+std::string key_of(HeadPoint point) {
+  std::string key = name_of(point);
+  std::replace(key.begin(), key.end(), ' ', '_');
+  return key + "_off_mm";
+}
+
+}  // namespace
 
 std::string faults_text(const Judgement& judgement) {
   return fmt::format("{}", fmt::join(judgement.faults, "; "));
@@ -20,6 +32,8 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
                          {"palate_rms_mm", nullptr},
                          {"bite_plane_deg", nullptr},
                          {"hyoid_off_mm", nullptr},
+                         {"short_tendon_off_mm", nullptr},
+                         {"mandible_off_mm", nullptr},
                          {"from_rest_mm", 1e3 * j.from_rest},
                          {"off_reach_mm", 1e3 * j.off_reach},
                          {"behind_palate", j.behind_palate},
@@ -39,7 +53,7 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
     json["lateral_mm"] = 1e3 * (*j.sideways)[2];
   }
   if (r.bite_plane) json["bite_plane_deg"] = *r.bite_plane * 180 / std::numbers::pi;
-  if (r.hyoid) json["hyoid_off_mm"] = 1e3 * *r.hyoid;
+  for (const auto& [point, off] : r.head_points) json[key_of(point)] = 1e3 * off;
   return json;
 }
 

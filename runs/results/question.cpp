@@ -38,9 +38,11 @@ std::string question_json(const Question& asked) {
   return result.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string difference(const std::string& before_json, const std::string& now_json) {
+std::string difference(const std::string& before_json, const std::string& now_json,
+                       const std::string& aside) {
   const Json before = Json::parse(before_json), now = Json::parse(now_json);
   for (const auto& [key, value] : now.items()) {
+    if (key == aside) continue;
     if (!before.contains(key)) return fmt::format("an earlier Genio, which did not keep {}", key);
     const Json& earlier = before[key];
     if (is_file(earlier) && is_file(value)) {
@@ -53,6 +55,11 @@ std::string difference(const std::string& before_json, const std::string& now_js
     return fmt::format("{} = {}, not {}", key, shown(earlier), shown(value));
   }
   return {};
+}
+
+double number_in(const std::string& question, const std::string& option) {
+  const Json asked = Json::parse(question);
+  return asked.contains(option) && asked[option].is_number() ? asked[option].get<double>() : 0;
 }
 
 }  // namespace genio

@@ -25,7 +25,11 @@ AskedFile asked_file(const std::string& path);
 std::string question_json(const Question& asked);
 
 /// The first option in which two questions, as JSON, differ, in words: "starts = 3, not 4". Empty
-/// where they ask the same; of a file only its content counts.
-std::string difference(const std::string& before, const std::string& now);
+/// where they ask the same; of a file only its content counts, and of an option `aside` nothing.
+std::string difference(const std::string& before, const std::string& now,
+                       const std::string& aside = "");
+
+/// An option's number in a question, as JSON; 0 where it is none.
+double number_in(const std::string& question, const std::string& option);
 
 }  // namespace genio

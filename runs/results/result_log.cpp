@@ -14,6 +14,12 @@ namespace genio {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* deadline = "deadline_s";  // of each frame; 0: none
+
+}  // namespace
+
 std::string asked_in(const std::string& folder) {
   const std::string path = folder + "/run.json";
   if (std::error_code none; !fs::exists(path, none))
@@ -43,12 +49,18 @@ ResultLog::ResultLog(const std::string& folder, const Question& question, bool r
   const std::string run = folder + "/run.json", asked = question_json(question);
   if (!resume) make_result_folder(folder, "--resume takes them up, or name another folder");
   make_folder(folder);
-  if (resume && fs::exists(run))
-    if (const std::string other = difference(asked_in(folder), asked); !other.empty())
+  bool later = false;
+  if (resume && fs::exists(run)) {
+    const std::string before = asked_in(folder);
+    if (const std::string other = difference(before, asked, deadline); !other.empty())
       throw InputError(fmt::format("--resume: {} was made with {}", folder, other));
+    const double earlier = number_in(before, deadline), now = number_in(asked, deadline);
+    later = earlier > 0 && (now == 0 || now > earlier);
+  }
   write_text(run, asked + "\n");
   lines_.emplace(folder + "/results.jsonl", [&](const std::string& line) {
     auto answer = read_record(line);
+    if (answer && later && answer->status == "deadline") return false;
     return answer && add_answer(known_, std::move(*answer), folder);
   });
 }

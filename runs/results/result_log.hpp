@@ -16,7 +16,8 @@ class ResultLog {
  public:
   /// `asked`: everything that an answer depends on. Throws InputError where the folder holds the
   /// answers to another question or two answers to one frame, or where answers would be overwritten
-  /// without `resume`.
+  /// without `resume`. Another deadline is no other question: where it is later now, the answers
+  /// that it had cut off are dropped.
   ResultLog(const std::string& folder, const Question& asked, bool resume);
 
   /// The answers of the run that is taken up.

@@ -23,5 +23,19 @@ TEST(QuestionOfAnInversion, ATargetOfSeveralFilesCountsByAllTheirContents) {
             std::string::npos);
 }
 
+TEST(QuestionOfAnInversion, PointsOfTheHeadAreAskedAlong) {
+  const InversionOptions plain;
+  const std::string before = question_json(question_of(plain, 1e-3));
+  const auto other = [&](const auto& change) {
+    InversionOptions o;
+    change(o.measured);
+    return difference(before, question_json(question_of(o, 1e-3)));
+  };
+  EXPECT_NE(other([](auto& m) { m.hyoid = "1,2"; }), "");
+  EXPECT_NE(other([](auto& m) { m.short_tendon = "1,2"; }), "");
+  EXPECT_NE(other([](auto& m) { m.jaw_shadow = "1,2"; }), "");
+  EXPECT_NE(other([](auto& m) { m.ignore_marks = true; }), "");
+}
+
 }  // namespace
 }  // namespace genio

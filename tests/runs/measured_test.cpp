@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -62,6 +63,45 @@ TEST_F(MeasuredTest, WhoInsistsIsToldInEveryResult) {
   EXPECT_TRUE(json["forced"]);
   EXPECT_NE(remarks.find("DOUBTFUL"), std::string::npos);
   EXPECT_NE(with_registration({}, m.registration).title.find("doubtful"), std::string::npos);
+}
+
+/// Ultrasound of the example, with its palate.
+MeasuredOptions ultrasound() {
+  const std::string example = std::string(GENIO_SOURCE_DIR) + "/data/examples/recording/";
+  MeasuredOptions o;
+  o.target = example + "contours.tsv", o.palate = example + "palate.tsv";
+  return o;
+}
+
+TEST(MeasuredChoice, AWrongOneIsSaidBeforeTheRegistration) {
+  const auto complaint = [](const FrameChoice& choice) -> std::string {
+    MeasuredOptions o = ultrasound();
+    o.choice = choice;
+    try {
+      read_measured(
+          o, []() -> const Model& { throw std::logic_error("registered"); }, [](const auto&) {});
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint({.frames = "5-3"}).find("--frames 5-3"), 0u);
+  EXPECT_EQ(complaint({.frames = "9000"}).find("--frames 9000"), 0u);
+  EXPECT_EQ(complaint({.tier = "words"}).find("--tier words"), 0u);
+  EXPECT_EQ(complaint({.labels = {"nobody says this"}}).find("--labels"), 0u);
+  EXPECT_NE(complaint({.textgrid = "/nowhere.TextGrid"}).find("/nowhere.TextGrid"),
+            std::string::npos);
+}
+
+TEST_F(MeasuredTest, WhatWasTakenForGrantedOfThePalateIsToldUnderItsName) {
+  const MeasuredOptions o = ultrasound();
+  std::vector<std::string> lines;
+  read_measured(
+      o, [&]() -> const Model& { return model; },
+      [&](const std::string& line) { lines.push_back(line); });
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+    return line.find(o.palate + ": units mm") == 0;
+  })) << testing::PrintToString(lines);
 }
 
 }  // namespace

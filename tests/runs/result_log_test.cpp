@@ -74,6 +74,27 @@ TEST_F(ResultLogs, KnownAnswersStayAsTheyWereWritten) {
   EXPECT_EQ(log.known().at(1).line + "\n", before);
 }
 
+TEST_F(ResultLogs, AnotherDeadlineIsNoOtherQuestionAndALaterOneAnswersWhatWasCutOff) {
+  const auto until = [&](double seconds) {
+    Question question = asked;
+    question.emplace_back("deadline_s", seconds);
+    return question;
+  };
+  AnswerView cut_off;
+  cut_off.status = "deadline", cut_off.verdict = "none";
+  {
+    ResultLog log(folder.path(), until(2), false);
+    log.add(answer(1));
+    log.add(read_record(answer_json(cut_off, 2)).value());
+  }
+  EXPECT_EQ(ResultLog(folder.path(), until(1), true).known().size(), 2u);
+  EXPECT_EQ(ResultLog(folder.path(), until(1), true).known().size(), 2u);
+  ResultLog log(folder.path(), until(0), true);
+  EXPECT_EQ(log.known().size(), 1u);
+  log.add(answer(2));
+  EXPECT_EQ(ResultLog(folder.path(), until(5), true).known().size(), 2u);
+}
+
 TEST_F(ResultLogs, ResultsAreNotOverwrittenUnasked) {
   { ResultLog log(folder.path(), asked, false); }
   EXPECT_THROW(ResultLog(folder.path(), asked, false), InputError);

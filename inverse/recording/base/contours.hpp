@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "forward/base/types.hpp"
+#include "inverse/recording/base/head_points.hpp"
 
 namespace genio {
 
@@ -72,6 +73,8 @@ struct ContourFile {
   std::string units;                 ///< of the file's numbers
   std::vector<std::string> remarks;  ///< units, facing, point order: what was taken for granted
   std::vector<ContourFrame> frames;
+  /// Beside the tongue, in the file's own numbers and directions whatever the frames are in.
+  HeadPointTracks head_points = {};
 };
 
 }  // namespace genio

@@ -16,10 +16,15 @@ namespace {
 constexpr size_t none = size_t(-1);
 constexpr size_t fan_lines = 42;
 
+/// Columns of x and y.
+using KnotColumns = std::vector<std::array<size_t, 2>>;
+
 /// Where things stand in a row.
 struct Layout {
-  std::vector<std::array<size_t, 2>> knots;  // columns of x and y
+  KnotColumns knots;
   AaaColumns before;
+  // Splines that show points of the head:
+  std::vector<std::pair<std::string, KnotColumns>> heads = {};
 };
 
 struct KnotTitle {
@@ -72,6 +77,12 @@ Layout from_header(const std::vector<std::string>& header, const ReadOptions& o,
                              columns[0] == none ? "X" : "Y"));
     layout.knots.push_back(columns);
   }
+  for (const std::string& name : splines) {
+    if (o.role != "tongue" || name == spline || head_points_in(name).empty()) continue;
+    auto& [head, columns] = layout.heads.emplace_back(name, KnotColumns());
+    for (const auto& [number, pair] : knots[name])
+      if (pair[0] != none && pair[1] != none) columns.push_back(pair);
+  }
   return layout;
 }
 
@@ -113,15 +124,16 @@ class RowLength {
   std::optional<bool> added_;
 };
 
-std::vector<AaaKnot> knots_of(const std::vector<std::string>& fields, const Layout& layout,
+std::vector<AaaKnot> knots_of(const std::vector<std::string>& fields, const KnotColumns& columns,
                               TableNumbers& numbers, const TableLines& lines) {
   std::vector<AaaKnot> knots;
-  for (size_t k = 0; k < layout.knots.size(); ++k) {
-    const auto [cx, cy] = layout.knots[k];
+  for (size_t k = 0; k < columns.size(); ++k) {
+    const auto [cx, cy] = columns[k];
     const std::string tx = cx < fields.size() ? fields[cx] : "";
     const std::string ty = cy < fields.size() ? fields[cy] : "";
     if (is_missing(tx) && is_missing(ty)) continue;
     AaaKnot knot;
+    knot.place = k;
     for (const auto& [column, text, value] :
          {std::tuple{cx, &tx, &knot.x}, std::tuple{cy, &ty, &knot.y}})
       if (!numbers.parse(*text, *value))
@@ -150,8 +162,12 @@ RawContours read_cartesian(const std::string& path, const ReadOptions& o) {
     length.check(fields);
     ContourFrame frame =
         aaa_frame(int(file.frames.size()) + 1, layout.before, fields, numbers, lines);
-    add_knots(frame, knots_of(fields, layout, numbers, lines), 0, o.role == "tongue", losses);
+    add_knots(frame, knots_of(fields, layout.knots, numbers, lines), 0, o.role == "tongue", losses);
     file.frames.push_back(std::move(frame));
+    AaaHeadPoints head;
+    for (const auto& [spline, columns] : layout.heads)
+      head.add(spline, knots_of(fields, columns, numbers, lines), columns.size(), 0);
+    head.add_to(file.head_points);
   } while (lines.next_filled(line));
   remark_losses(file, losses, 0);
   if (numbers.has_commas()) file.remarks.push_back("numbers have decimal commas");

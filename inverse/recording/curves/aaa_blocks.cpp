@@ -51,13 +51,15 @@ struct Layout {
   std::vector<Block> blocks;
   AaaColumns before;
   std::string spline;                // the one to read
+  std::vector<std::string> heads;    // those that show points of the head
   std::map<std::string, bool> told;  // by name of a spline: whether rows tell its number of points
   int singles = 0, a_point = 0;      // columns, and columns a point of splines that do not tell it
 };
 
 Layout layout_of(const std::vector<std::string>& titles, const ReadOptions& o,
                  const TableLines& lines) {
-  Layout l{{}, aaa_columns(titles), {}, {}};
+  Layout l;
+  l.before = aaa_columns(titles);
   std::vector<std::string> splines;
   std::string last;
   for (const std::string& title : titles) {
@@ -77,14 +79,22 @@ Layout layout_of(const std::vector<std::string>& titles, const ReadOptions& o,
     if (const int n = columns_a_point(block.part); n == 0) ++l.singles;
     else l.a_point += n;
   l.spline = named_curve(splines, o, fmt::format("{}:{}", lines.path(), lines.number()));
+  for (const std::string& name : splines)
+    if (o.role == "tongue" && name != l.spline && !head_points_in(name).empty())
+      l.heads.push_back(name);
   return l;
 }
 
-/// Values of the blocks of the spline that is read; empty where it has no such block.
+/// Values of the blocks of a spline; empty where it has no such block.
 struct Values {
   std::map<Part, std::vector<std::string>> of;
   bool has(Part part) const { return of.contains(part); }
   std::string at(Part part, size_t k) const { return of.at(part)[k]; }
+  size_t count() const {
+    return has(Part::radii)   ? of.at(Part::radii).size()
+           : has(Part::pairs) ? of.at(Part::pairs).size() / 2
+                              : of.at(Part::xs).size();
+  }
 };
 
 size_t whole_count(const std::string& field, size_t column, const TableLines& lines) {
@@ -107,8 +117,10 @@ size_t untold_count(const std::vector<std::string>& fields, const Layout& l,
   return size_t(rest / l.a_point);
 }
 
-Values values_of(const std::vector<std::string>& fields, const Layout& l, const TableLines& lines) {
-  Values values;
+/// Of all splines, by their names.
+std::map<std::string, Values> values_of(const std::vector<std::string>& fields, const Layout& l,
+                                        const TableLines& lines) {
+  std::map<std::string, Values> values;
   std::map<std::string, size_t> counts;
   for (const auto& [name, told] : l.told)
     if (!told) counts[name] = untold_count(fields, l, lines);
@@ -123,8 +135,9 @@ Values values_of(const std::vector<std::string>& fields, const Layout& l, const 
       lines.fail(fmt::format("{} fields; its titles and numbers of points need {} or more",
                              fields.size(), at + width));
     if (block.part == Part::count) counts[block.spline] = whole_count(fields[at], at, lines);
-    if (!single && block.spline == l.spline)
-      values.of[block.part].assign(fields.begin() + long(at), fields.begin() + long(at + width));
+    if (!single)
+      values[block.spline].of[block.part].assign(fields.begin() + long(at),
+                                                 fields.begin() + long(at + width));
     at += width;
   }
   if (fields.size() > at + 1 || (fields.size() == at + 1 && !trimmed(fields.back()).empty()))
@@ -139,11 +152,8 @@ std::vector<AaaKnot> knots_of(const Values& v, TableNumbers& numbers, const Tabl
   const bool polar = v.has(Part::radii), pairs = v.has(Part::pairs);
   if (polar ? !v.has(Part::angles) : !pairs && !(v.has(Part::xs) && v.has(Part::ys)))
     lines.fail("the spline has neither radii and angles nor X and Y");
-  const size_t count = polar   ? v.of.at(Part::radii).size()
-                       : pairs ? v.of.at(Part::pairs).size() / 2
-                               : v.of.at(Part::xs).size();
   std::vector<AaaKnot> knots;
-  for (size_t k = 0; k < count; ++k) {
+  for (size_t k = 0; k < v.count(); ++k) {
     const std::string a = polar   ? v.at(Part::radii, k)
                           : pairs ? v.at(Part::pairs, 2 * k)
                                   : v.at(Part::xs, k);
@@ -152,6 +162,7 @@ std::vector<AaaKnot> knots_of(const Values& v, TableNumbers& numbers, const Tabl
                                   : v.at(Part::ys, k);
     if (is_missing(a) && is_missing(b)) continue;
     AaaKnot knot;
+    knot.place = k;
     for (const auto& [text, value] : {std::pair{&a, &knot.x}, std::pair{&b, &knot.y}})
       if (!numbers.parse(*text, *value))
         lines.fail(fmt::format("knot {}: {}; expected {}, or '*'", k, numbers.complaint(*text),
@@ -173,6 +184,13 @@ std::vector<AaaKnot> knots_of(const Values& v, TableNumbers& numbers, const Tabl
   }
   return knots;
 }
+
+/// A spline of a row that shows points of the head.
+struct HeadSpline {
+  std::string name;
+  std::vector<AaaKnot> knots;
+  size_t count = 0;  ///< missing ones counted
+};
 
 /// The least confidence that counts. Programs give 0 to 100, and some 0 to 1.
 double least_confidence(const std::vector<std::vector<AaaKnot>>& rows) {
@@ -208,18 +226,26 @@ RawContours read_aaa_blocks(const std::string& path, const ReadOptions& o) {
   const Layout l = layout_of(split_fields(line, '\t'), o, lines);
   TableNumbers numbers('\t');
   std::vector<std::vector<AaaKnot>> rows;
+  std::vector<std::vector<HeadSpline>> heads;
   while (lines.next_filled(line)) {
     const auto fields = split_fields(line, '\t');
-    const Values values = values_of(fields, l, lines);
+    auto values = values_of(fields, l, lines);
     frames.push_back(aaa_frame(int(frames.size()) + 1, l.before, fields, numbers, lines));
-    rows.push_back(knots_of(values, numbers, lines));
+    rows.push_back(knots_of(values[l.spline], numbers, lines));
+    auto& of_row = heads.emplace_back();
+    for (const std::string& spline : l.heads)
+      of_row.push_back({spline, knots_of(values[spline], numbers, lines), values[spline].count()});
   }
   if (frames.empty()) lines.fail("the file has no data row");
   const double least = least_confidence(rows);
   widen(rows, least);
   AaaLosses losses;
-  for (size_t k = 0; k < frames.size(); ++k)
+  for (size_t k = 0; k < frames.size(); ++k) {
+    AaaHeadPoints head;
+    for (const HeadSpline& s : heads[k]) head.add(s.name, s.knots, s.count, least);
+    head.add_to(raw.file.head_points);
     add_knots(frames[k], rows[k], least, o.role == "tongue", losses);
+  }
   remark_losses(raw.file, losses, least);
   if (numbers.has_commas()) raw.file.remarks.push_back("numbers have decimal commas");
   return raw;

@@ -95,6 +95,26 @@ void add_knots(ContourFrame& frame, const std::vector<AaaKnot>& knots, double le
   else if (unsure > 0) frame.note = fmt::format("{} knots of low confidence left out", unsure);
 }
 
+void AaaHeadPoints::add(const std::string& spline, const std::vector<AaaKnot>& knots, size_t count,
+                        double least) {
+  const auto named = head_points_in(spline);
+  const bool middle = named == std::vector{HeadPoint::hyoid};
+  if (named.empty() || (!middle && named.size() != count)) return;
+  std::vector<std::pair<Eigen::Vector2d, int>> sums(named.size(), {Eigen::Vector2d::Zero(), 0});
+  for (const AaaKnot& knot : knots) {
+    if (knot.confidence && *knot.confidence < least) continue;
+    auto& [sum, summed] = sums[middle ? 0 : knot.place];
+    sum += Eigen::Vector2d(knot.x, knot.y), ++summed;
+  }
+  for (size_t k = 0; k < named.size(); ++k)
+    if (const auto& [sum, summed] = sums[k]; summed > 0)
+      seen_.try_emplace(named[k], sum / double(summed));
+}
+
+void AaaHeadPoints::add_to(HeadPointTracks& tracks) const {
+  for (const auto& [point, at] : seen_) tracks[point].push_back(at);
+}
+
 void remark_losses(ContourFile& file, const AaaLosses& losses, double least) {
   if (losses.unsure > 0)
     file.remarks.push_back(fmt::format("{} of {} knots left out: their confidence is below {:g}",

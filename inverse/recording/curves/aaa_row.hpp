@@ -1,6 +1,7 @@
 #pragma once
 // What AAA's exports share: the columns before the knots, and which knots can be a tongue's.
 
+#include <map>
 #include <optional>
 
 #include "inverse/recording/base/contour_format.hpp"
@@ -26,6 +27,7 @@ struct AaaKnot {
   double x = 0, y = 0;  // [mm]
   std::optional<double> confidence;
   double widening = 1;  // of the noise, by the confidence
+  size_t place = 0;
 };
 
 /// Counts of what was left out of a file, for its remarks.
@@ -37,6 +39,19 @@ struct AaaLosses {
 /// that lie beyond a gap no tongue has. The frame's note says what was left out.
 void add_knots(ContourFrame& frame, const std::vector<AaaKnot>& knots, double least, bool tongue,
                AaaLosses& losses);
+
+/// What a row's splines show of the head, by name and number of knots: of "DLC_HyoidMandible" each
+/// of its two, and of the hyoid alone the middle of all. The first spline that shows a point
+/// counts.
+class AaaHeadPoints {
+ public:
+  void add(const std::string& spline, const std::vector<AaaKnot>& knots, size_t count,
+           double least);
+  void add_to(HeadPointTracks& tracks) const;
+
+ private:
+  std::map<HeadPoint, Eigen::Vector2d> seen_;
+};
 
 void remark_losses(ContourFile& file, const AaaLosses& losses, double least);
 

@@ -49,7 +49,12 @@ BodyPartTable::BodyPartTable(const std::vector<BodyPartTitle>& titles, const Rea
       options_(options),
       all_(parts_of(titles, place)),
       parts_(chosen(all_, options, place)),
-      frames_(place) {}
+      frames_(place) {
+  if (options.role != "tongue") return;
+  for (const Part& part : all_)
+    if (const auto points = head_points_in(part.name); points.size() == 1)
+      heads_.try_emplace(points.front(), part);
+}
 
 std::vector<BodyPartTable::Part> BodyPartTable::parts_of(const std::vector<BodyPartTitle>& titles,
                                                          const TablePlace& place) {
@@ -79,9 +84,12 @@ std::vector<BodyPartTable::Part> BodyPartTable::chosen(const std::vector<Part>& 
                                                        const ReadOptions& o,
                                                        const TablePlace& place) {
   std::vector<Part> result;
+  const auto of_head = [&](const Part& part) {
+    return o.role == "tongue" && !head_points_in(part.name).empty();
+  };
   const auto keep = [&](const auto& fits) {
     std::copy_if(all.begin(), all.end(), std::back_inserter(result),
-                 [&](const Part& part) { return fits(part.name); });
+                 [&](const Part& part) { return fits(part.name) && !of_head(part); });
   };
   if (!o.spline.empty()) {
     keep([&](const std::string& name) {
@@ -91,8 +99,8 @@ std::vector<BodyPartTable::Part> BodyPartTable::chosen(const std::vector<Part>& 
     keep([&](const std::string& name) { return is_called_for(name, o.role); });
     if (result.empty() && o.role == "tongue" &&
         std::all_of(all.begin(), all.end(),
-                    [](const Part& part) { return is_tongue_like(part.name); }))
-      result = all;
+                    [&](const Part& part) { return is_tongue_like(part.name) || of_head(part); }))
+      keep([](const std::string&) { return true; });
   }
   if (!result.empty()) return result;
   std::string list;
@@ -119,31 +127,45 @@ RowFrame BodyPartTable::numbered(const std::string& index) {
   return row;
 }
 
+std::optional<BodyPartTable::Seen> BodyPartTable::seen(
+    const Part& part, const std::function<double(size_t)>& value) const {
+  const double x = value(part.x), y = value(part.y);
+  if (std::isnan(x) && std::isnan(y)) return {};
+  if (std::isnan(x + y))
+    place_.fail(fmt::format("body part {} has {} alone; expected x and y or neither",
+                            in_quotes(part.name), std::isnan(x) ? "y" : "x"));
+  double p = part.likelihood ? value(*part.likelihood) : 1;
+  if (std::isnan(p)) p = 0;
+  if (p < 0 || p > 1)
+    place_.fail(
+        fmt::format("body part {}: likelihood {:g}; expected 0 to 1", in_quotes(part.name), p));
+  return Seen{x, y, p};
+}
+
+void BodyPartTable::add_head_points(const std::function<double(size_t)>& value) {
+  for (const auto& [point, part] : heads_)
+    if (const auto at = seen(part, value); at && at->likelihood >= least_likelihood)
+      head_points_[point].emplace_back(at->x, at->y);
+}
+
 void BodyPartTable::add_row(const std::string& index, const std::function<double(size_t)>& value) {
   ContourFrame& frame = frames_.frame(numbered(index));
   frames_.count("row", 1);
   size_t dropped = 0;
   for (const Part& part : parts_) {
-    const double x = value(part.x), y = value(part.y);
-    if (std::isnan(x) && std::isnan(y)) continue;
-    if (std::isnan(x + y))
-      place_.fail(fmt::format("body part {} has {} alone; expected x and y or neither",
-                              in_quotes(part.name), std::isnan(x) ? "y" : "x"));
+    const auto at = seen(part, value);
+    if (!at) continue;
     ++points_;
-    double p = part.likelihood ? value(*part.likelihood) : 1;
-    if (std::isnan(p)) p = 0;
-    if (p < 0 || p > 1)
-      place_.fail(
-          fmt::format("body part {}: likelihood {:g}; expected 0 to 1", in_quotes(part.name), p));
-    if (p < least_likelihood) {
+    if (at->likelihood < least_likelihood) {
       ++dropped;
       continue;
     }
     ContourPoint& point = frame.points.emplace_back();
-    point.position = {x, not_given, y}, point.kind = "curve";
-    front_.add(part.name, x);
-    point.widening = widening_by_likelihood(p);
+    point.position = {at->x, not_given, at->y}, point.kind = "curve";
+    front_.add(part.name, at->x);
+    point.widening = widening_by_likelihood(at->likelihood);
   }
+  add_head_points(value);
   unsure_ += dropped;
   if (dropped > 0) frame.note = fmt::format("{} points of low likelihood left out", dropped);
   else if (frame.points.empty()) frame.note = "the frame is empty (no body part has a value)";
@@ -153,13 +175,22 @@ RawContours BodyPartTable::contours() {
   RawContours raw{{}, FileAxes{"px", front_.facing(), "down"}};
   raw.file.model_frame = false;
   raw.file.frames = frames_.take();
+  raw.file.head_points = std::move(head_points_);
   auto& remarks = raw.file.remarks;
   std::string left;
+  const auto is_head = [&](const Part& part) {
+    return std::any_of(heads_.begin(), heads_.end(),
+                       [&](const auto& head) { return head.second.x == part.x; });
+  };
   for (const Part& part : all_)
-    if (std::none_of(parts_.begin(), parts_.end(), [&](const auto& p) { return p.x == part.x; }))
+    if (!is_head(part) &&
+        std::none_of(parts_.begin(), parts_.end(), [&](const auto& p) { return p.x == part.x; }))
       left += (left.empty() ? "" : ", ") + part.name;
   remarks.push_back(fmt::format("{} of {} body parts are the {}'s{}{}", parts_.size(), all_.size(),
                                 options_.role, left.empty() ? "" : "; left out: ", left));
+  std::string heads;
+  for (const auto& [point, part] : heads_) heads += (heads.empty() ? "" : ", ") + part.name;
+  if (!heads.empty()) remarks.push_back("points of the head: " + heads);
   if (unsure_ > 0)
     remarks.push_back(fmt::format("{} of {} points left out: their likelihood is below {:g}",
                                   unsure_, points_, least_likelihood));

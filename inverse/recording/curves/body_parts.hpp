@@ -25,7 +25,8 @@ class FrontInImage {
   double count_ = 0, fronts_ = 0, xs_ = 0, both_ = 0;
 };
 
-/// The contours of a table: a row a frame, and body parts that are the tongue's points.
+/// The contours of a table: a row a frame, body parts that are the tongue's points, and those of
+/// the head.
 class BodyPartTable {
  public:
   /// Throws InputError at `place` where titles are no body parts, or none is the role's.
@@ -46,11 +47,20 @@ class BodyPartTable {
                                     const TablePlace& place);
   static std::vector<Part> chosen(const std::vector<Part>& all, const ReadOptions& options,
                                   const TablePlace& place);
+  /// Where a row shows a part, and how likely.
+  struct Seen {
+    double x = 0, y = 0, likelihood = 0;
+  };
+  /// Empty where the row has no value of the part. Throws InputError at the place.
+  std::optional<Seen> seen(const Part& part, const std::function<double(size_t)>& value) const;
+  void add_head_points(const std::function<double(size_t)>& value);
   RowFrame numbered(const std::string& index);
 
   const TablePlace& place_;
   ReadOptions options_;
   std::vector<Part> all_, parts_;
+  std::map<HeadPoint, Part> heads_;
+  HeadPointTracks head_points_;
   FrameRows frames_;
   FrontInImage front_;
   int rows_ = 0;

@@ -1,10 +1,12 @@
 #pragma once
 // Bringing a recording's own frame into the model's, by the palate both know.
 
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "inverse/recording/base/bite_plane.hpp"
+#include "inverse/recording/base/head_points.hpp"
 #include "inverse/recording/registration/reach.hpp"
 
 namespace genio {
@@ -25,7 +27,7 @@ struct KnownPlace {
 /// What beside palate and contours tells where the head was.
 struct HeadMarks {
   std::optional<BitePlane> bite_plane = {};
-  std::optional<KnownPlace> hyoid = {};
+  std::map<HeadPoint, KnownPlace> points = {};
 };
 
 struct Registration {
@@ -49,8 +51,8 @@ double rms_distance(const Similarity& s, const std::vector<Vec2>& points,
 /// registrations fit the palate equally well (RMS 1 mm). So scale and tilt have weak priors (6 %
 /// and 20 degrees), and the contours of all frames together decide, as much as 60 points: they lie
 /// about the rest shape (5 mm), then about lines that the reach bends to them (2.5 mm). A bite
-/// plane tells the tilt in place of its prior, and a hyoid a place within its spread. Throws
-/// InputError when the model has no palate or the trace fewer than 5 points.
+/// plane tells the tilt in place of its prior, and points of the head tell places within their
+/// spread. Throws InputError when the model has no palate or the trace fewer than 5 points.
 Registration register_by_palate(const Model& model, const TongueReach& reach,
                                 const std::vector<Vec2>& palate_trace,
                                 const std::vector<std::vector<Vec2>>& contours,

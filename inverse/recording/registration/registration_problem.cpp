@@ -45,9 +45,9 @@ Beliefs beliefs(const RegistrationProblem& problem, const std::vector<double>& v
   b.curvature(0, 0) = 1 / (turn_sd * turn_sd), b.curvature(1, 1) = 1 / (scale_sd * scale_sd);
   b.slope[0] = turn * b.curvature(0, 0), b.slope[1] = v[1] * b.curvature(1, 1);
   b.cost = turn * b.slope[0] + v[1] * b.slope[1];
-  if (const auto& hyoid = problem.marks.hyoid) {
-    const Vec2 at = problem.transform(v)(hyoid->in_recording), off = at - hyoid->in_model;
-    const double each = 1 / (hyoid->sd * hyoid->sd);
+  for (const auto& [point, known] : problem.marks.points) {
+    const Vec2 at = problem.transform(v)(known.in_recording), off = at - known.in_model;
+    const double each = 1 / (known.sd * known.sd);
     const auto rows = by_registration(at, Vec2(v[2], v[3]));
     b.cost += each * off.squaredNorm();
     b.slope += each * rows.transpose() * off;

@@ -32,7 +32,7 @@ struct RegistrationProblem {
 };
 
 /// Squares that are no misfit of palate or contours: of tilt and scale about what is believed, and
-/// of the hyoid about its place.
+/// of points of the head about their places.
 struct Beliefs {
   double cost = 0;
   Eigen::Vector4d slope = Eigen::Vector4d::Zero();      ///< half the gradient

@@ -94,45 +94,5 @@ TEST_F(BitePlaneOfASession, OneThatThePalateContradictsIsAFault) {
       << testing::PrintToString(other.judgement.faults);
 }
 
-TEST_F(BitePlaneOfASession, AHyoidPullsTowardsTheModels) {
-  const auto cut = midsagittal_cut(*model.hyoid).front();
-  Vec2 middle = Vec2::Zero();
-  for (const Vec2& q : cut) middle += q / double(cut.size());
-  const auto alone = align(model, tongue(), {}, {});
-  const auto told = align(model, tongue(), {}, {}, {.hyoid = file_of({middle}, bowed)});
-  ASSERT_TRUE(told.hyoid);
-  const Vec2 there = Similarity{1, bowed, Vec2(-0.02, 0.03)}(middle);
-  EXPECT_LT(*told.hyoid, (alone.registration.transform(there) - middle).norm());
-  EXPECT_LT(std::abs(told.registration.transform.angle + bowed),
-            std::abs(alone.registration.transform.angle + bowed));
-}
-
-TEST_F(BitePlaneOfASession, AHyoidFarFromTheModelsIsAFault) {
-  const auto cut = midsagittal_cut(*model.palate).front();
-  const SessionFile palate =
-      file_of({cut.begin() + long(cut.size() / 6), cut.begin() + long(2 * cut.size() / 3)}, bowed);
-  const auto told =
-      align(model, tongue(), palate, {}, {.hyoid = file_of({Vec2(0.25, 0.0)}, bowed)});
-  const auto& faults = told.judgement.faults;
-  EXPECT_TRUE(std::any_of(faults.begin(), faults.end(), [](const std::string& fault) {
-    return fault.find("hyoid lies") != std::string::npos;
-  })) << *told.hyoid;
-}
-
-TEST_F(BitePlaneOfASession, AHyoidIsTwoNumbersInTheUnitsOfTheContours) {
-  SessionFile curves = tongue();
-  curves.file.units = "px";
-  ReadOptions o;
-  o.mm_per_px = 0.5;
-  const SessionFile hyoid = hyoid_at("120,-40.5", o, curves);
-  const Vec3 p = hyoid.file.frames.front().points.front().position;
-  EXPECT_NEAR(p[0], 0.06, 1e-12);
-  EXPECT_NEAR(p[2], -0.02025, 1e-12);
-  for (const char* bad : {"", "3", "a,b", "1,2,3"})
-    EXPECT_THROW(hyoid_at(bad, o, curves), InputError) << bad;
-  curves.file.format.content = Content::sensors;
-  EXPECT_THROW(hyoid_at("1,2", o, curves), InputError);
-}
-
 }  // namespace
 }  // namespace genio

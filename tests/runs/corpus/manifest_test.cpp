@@ -79,6 +79,15 @@ TEST_F(ManifestOf, FilesOfOptionsStartFromItsFolderToo) {
   EXPECT_NE(none.find("none.csv: no such file"), std::string::npos) << none;
 }
 
+TEST_F(ManifestOf, PointsOfOptionsKeepTheirComma) {
+  const Manifest m =
+      read("recording,options\ns1/a.csv,\"--hyoid 120,-40.5 --jaw-shadow=-7,3 --ignore-marks\"\n");
+  const auto& words = m.rows.at(0).words;
+  ASSERT_GE(words.size(), 6u);
+  EXPECT_EQ(Words(words.begin() + 2, words.begin() + 6),
+            (Words{"--hyoid", "120,-40.5", "--jaw-shadow=-7,3", "--ignore-marks"}));
+}
+
 TEST_F(ManifestOf, FilesOfOneTakeAreFoundEach) {
   const Manifest m = read("recording\n\"s1/a.csv,a.csv\"\n");
   EXPECT_EQ(asked_of(m.rows[0].words, m.folder, take).measured.target,
