@@ -27,11 +27,11 @@ double median(std::vector<double> v) {
   return v[v.size() / 2];
 }
 
-/// The share of points in the model's frame that lie deep in a bone.
-double behind(const Model& model, const std::vector<Vec3>& points) {
+/// The share of points in the model's frame that lie deeper in a bone than that [m].
+double behind(const Model& model, const std::vector<Vec3>& points, double depth) {
   const auto beyond = std::count_if(points.begin(), points.end(), [&](const Vec3& p) {
     return std::any_of(model.contacts.begin(), model.contacts.end(),
-                       [&](const auto& c) { return c->distance(p) < -into_bone; });
+                       [&](const auto& c) { return c->distance(p) < -depth; });
   });
   return points.empty() ? 0 : double(beyond) / double(points.size());
 }
@@ -92,7 +92,7 @@ Judgement judge(const Model& model, const Registration& r,
       const Vec2 at = r.transform(q);
       moved.emplace_back(at[0], 0, at[1]);
     }
-  j.behind_palate = behind(model, moved);
+  j.behind_palate = behind(model, moved, into_bone + (has_palate ? 0 : r.shift_sd.maxCoeff()));
 
   if (const double tilt = std::abs(j.tilt) * 180 / std::numbers::pi; tilt > most_tilt)
     j.faults.push_back(fmt::format(
@@ -105,8 +105,9 @@ Judgement judge(const Model& model, const Registration& r,
 
 Judgement judge_scan(const Model& model, const std::vector<Vec3>& points,
                      const std::optional<ScanRegistration>& r, bool has_palate) {
+  const double loose = r && !has_palate ? r->shift_sd : 0;
   Judgement j{.from_rest = rms_from_surface(facets(model.surface), model.rest, points),
-              .behind_palate = behind(model, points)};
+              .behind_palate = behind(model, points, into_bone + loose)};
   if (r) {
     j.scale = r->pose.scale;
     j.palate_rms = r->palate_rms, j.off_reach = r->off_reach;

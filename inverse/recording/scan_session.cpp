@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -69,6 +70,17 @@ std::vector<Vec3> moved(const ScanPose& pose, std::vector<Vec3> points) {
       path, described(a, of_a), described(b, of_b)));
 }
 
+/// True where nearly every point of the tongue lies on one of the palate, in the scan's own frame.
+bool is_the_palate(const Scan& scan) {
+  constexpr double on_it = 0.5e-3;  // [m]
+  if (scan.palate.empty()) return false;
+  const auto on = std::count_if(scan.tongue.begin(), scan.tongue.end(), [&](const Vec3& q) {
+    return std::any_of(scan.palate.begin(), scan.palate.end(),
+                       [&](const Vec3& p) { return (p - q).norm() < on_it; });
+  });
+  return 5 * on > 4 * std::ptrdiff_t(scan.tongue.size());
+}
+
 void set_turns(Judgement& j, const ScanPose& pose, const AxesReading& reading, const Vec3& middle) {
   const Mat3 rest = pose.turn * rotation_of(reading).transpose();
   const Eigen::AngleAxisd turn(rest);
@@ -129,6 +141,9 @@ AlignedScan align_scan(const Model& model, SessionFile target,
         !near_place(best.pose, found[k].pose, middle, other_turn, other_way) &&
         judged(found[k]).faults.empty())
       ask(target.path, best, found[k], options);
+  if (is_the_palate(scan))
+    judgement.faults.emplace_back(
+        "its points lie on the palate's surface: was the palate given as the tongue?");
   const AxesReading reading = nearest_reading(best.pose, options);
   set_turns(judgement, best.pose, reading, middle);
   AlignedScan result{std::move(target.file), best, reading, judgement};

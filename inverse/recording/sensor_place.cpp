@@ -10,7 +10,9 @@
 namespace genio {
 namespace {
 
-constexpr double smallest_scale = 0.75, largest_scale = 1.3, tissue_stretch = 0.3;
+constexpr double tissue_stretch = 0.3;
+constexpr double in_order = 5e-3;  // places that differ by less along the head have no order [m]
+constexpr double out_of_order = 3e-3;  // of sensors that lie the other way round [m]
 constexpr double glue_slack = 3e-3;    // of gluing and of the line's chords [m]
 constexpr double first_behind = 0.01;  // where the first sensor sits, 5 to 15 mm behind the tip [m]
 constexpr size_t most_frames = 2000;   // that are looked at
@@ -126,6 +128,71 @@ Vec3 at_rest(const Model& model, const std::string& place) {
   return sum;
 }
 
+/// Two sensors that were said to be at one place, and lie apart.
+std::string apart_at_one_place(const ContourFile& file) {
+  for (size_t f = 0; f < std::min(file.frames.size(), most_frames); ++f) {
+    const auto& points = file.frames[f].points;
+    for (size_t i = 0; i < points.size(); ++i)
+      for (size_t k = i + 1; k < points.size(); ++k) {
+        if (!glued(points[i]) || points[i].kind != points[k].kind) continue;
+        const Vec3 way = points[i].position - points[k].position;
+        if (const double off = std::hypot(way[0], way[2]); off > in_order)
+          return fmt::format("two sensors are said to be at {}, and lie {:.1f} mm apart",
+                             points[i].kind, 1e3 * off);
+      }
+  }
+  return {};
+}
+
+/// Where a sensor lies along the head, over all frames [m].
+double mean_back(const ContourFile& file, const std::string& kind) {
+  double sum = 0, count = 0;
+  for (size_t f = 0; f < std::min(file.frames.size(), most_frames); ++f)
+    for (const ContourPoint& p : file.frames[f].points)
+      if (p.kind == kind) sum += p.position[0], ++count;
+  return sum / std::max(1.0, count);
+}
+
+/// Two sensors of which the one that was said to be behind lies in front.
+std::string other_order(const Model& model, const ContourFile& file) {
+  const auto kinds = kinds_of(file);
+  for (const std::string& front : kinds)
+    for (const std::string& behind : kinds) {
+      if (at_rest(model, behind)[0] - at_rest(model, front)[0] < in_order) continue;
+      const double off = mean_back(file, front) - mean_back(file, behind);
+      if (off > out_of_order)
+        return fmt::format(
+            "the sensor at {} lies {:.1f} mm in front of that at {}, and these "
+            "places are the other way round",
+            behind, 1e3 * off, front);
+    }
+  return {};
+}
+
+/// Two sensors whose distance is not that of their places.
+std::string other_distance(const Model& model, const ContourFile& file,
+                           const std::pair<double, double>& scales) {
+  const auto kinds = kinds_of(file);
+  std::string worst;
+  double worst_ratio = 0;
+  for (size_t i = 0; i < kinds.size(); ++i)
+    for (size_t j = i + 1; j < kinds.size(); ++j) {
+      const double seen = usual_distance(file, kinds[i], kinds[j]);
+      const double modelled = (at_rest(model, kinds[i]) - at_rest(model, kinds[j])).norm();
+      if (std::isnan(seen)) continue;
+      const bool near = seen + glue_slack < modelled * scales.first * (1 - tissue_stretch);
+      const bool far = seen - glue_slack > modelled * scales.second * (1 + tissue_stretch);
+      if (!near && !far) continue;
+      const double ratio = near ? modelled / (seen + 1e-4) : seen / (modelled + 1e-4);
+      if (ratio <= worst_ratio) continue;
+      worst_ratio = ratio;
+      worst = fmt::format(
+          "the sensors at {} and {} are {:.1f} mm apart, these places {:.1f} mm in the model",
+          kinds[i], kinds[j], 1e3 * seen, 1e3 * modelled);
+    }
+  return worst;
+}
+
 }  // namespace
 
 std::vector<std::pair<int, double>> sensor_place(const Model& model, const std::string& place) {
@@ -164,25 +231,11 @@ std::map<std::string, double> places_by_distance(const Model& model, const Conto
   return places;
 }
 
-std::string place_contradiction(const Model& model, const ContourFile& file) {
-  const auto kinds = kinds_of(file);
-  std::string worst;
-  double worst_ratio = 0;
-  for (size_t i = 0; i < kinds.size(); ++i)
-    for (size_t j = i + 1; j < kinds.size(); ++j) {
-      const double seen = usual_distance(file, kinds[i], kinds[j]);
-      const double modelled = (at_rest(model, kinds[i]) - at_rest(model, kinds[j])).norm();
-      if (std::isnan(seen)) continue;
-      const bool near = seen + glue_slack < modelled * smallest_scale * (1 - tissue_stretch);
-      const bool far = seen - glue_slack > modelled * largest_scale * (1 + tissue_stretch);
-      if (!near && !far) continue;
-      const double ratio = near ? modelled / (seen + 1e-4) : seen / (modelled + 1e-4);
-      if (ratio <= worst_ratio) continue;
-      worst_ratio = ratio;
-      worst = fmt::format(
-          "the sensors at {} and {} are {:.1f} mm apart, these places {:.1f} mm in the model",
-          kinds[i], kinds[j], 1e3 * seen, 1e3 * modelled);
-    }
+std::string place_contradiction(const Model& model, const ContourFile& file,
+                                const std::pair<double, double>& scales) {
+  std::string worst = apart_at_one_place(file);
+  if (worst.empty()) worst = other_order(model, file);
+  if (worst.empty()) worst = other_distance(model, file, scales);
   if (worst.empty()) return {};
   std::string proposal;
   for (const auto& [kind, arc] : places_by_distance(model, file))

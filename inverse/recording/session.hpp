@@ -73,6 +73,10 @@ AlignedRecording align(const Model& model, SessionFile target,
                        const std::optional<SessionFile>& palate, const ReadOptions& options,
                        const SessionMarks& marks = {});
 
+/// A reading of contours that fits far better than that in which they stand, as text; empty where
+/// there is none, or they lie near the tongue at rest. Of files in the model's frame.
+std::string better_reading(const Model& model, const ContourFile& file, double from_rest);
+
 /// The points of all frames on the midsagittal line, curves and marked points, (x, z) [m].
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);
 

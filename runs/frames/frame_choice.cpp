@@ -1,6 +1,7 @@
 #include "runs/frames/frame_choice.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -120,6 +121,28 @@ void forget_missing_times(Frames& frames) {
 }
 
 }  // namespace
+
+std::vector<ContourFrame> of_one_speaker(std::vector<ContourFrame> frames,
+                                         const FrameChoice& choice, const std::string& path) {
+  std::set<std::string> speakers;
+  for (const ContourFrame& f : frames)
+    if (!f.points.empty()) speakers.insert(f.speaker);
+  if (choice.speaker.empty()) {
+    if (speakers.size() > 1)
+      throw InputError(fmt::format(
+          "{}: holds {} speakers ({}), and one registration does not place two heads; choose one "
+          "with --speaker",
+          path, speakers.size(), fmt::join(speakers, ", ")));
+    return frames;
+  }
+  if (!speakers.contains(choice.speaker))
+    throw InputError(fmt::format("--speaker {}: {} has {}", choice.speaker, path,
+                                 speakers.empty() || *speakers.rbegin() == ""
+                                     ? "no names of speakers"
+                                     : fmt::format("{}", fmt::join(speakers, ", "))));
+  std::erase_if(frames, [&](const ContourFrame& f) { return f.speaker != choice.speaker; });
+  return frames;
+}
 
 std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const FrameChoice& choice,
                                         const std::string& path,

@@ -14,7 +14,13 @@ struct FrameChoice {
   std::string frames = {};  ///< "7", "3-9", "1.2s-1.8s" or "1.2s"
   std::string textgrid = {}, tier = {};
   std::vector<std::string> labels = {};
+  std::string speaker = {};  ///< of those that the file has
 };
+
+/// Those of one speaker: of the one that is asked for, else of the only one. Throws InputError
+/// where there are several and nobody says which, for one registration does not place two heads.
+std::vector<ContourFrame> of_one_speaker(std::vector<ContourFrame> frames,
+                                         const FrameChoice& choice, const std::string& path);
 
 /// The frames that are asked for, of all that the file `path` has. Those that a TextGrid names have
 /// its labels; a frame's time is NaN where the file gives no times. `remark` hears which labels

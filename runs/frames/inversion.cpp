@@ -65,6 +65,7 @@ Question question_of(const InversionOptions& o, double noise) {
           {"bite_plane_sensors", m.bite_plane_sensors},
           {"textgrid", asked_file(m.choice.textgrid)},
           {"tier", m.choice.tier},
+          {"speaker", m.choice.speaker},
           {"frames", asked_range(o)},
           {"noise_mm", 1e3 * noise},
           {"format", m.read.format},

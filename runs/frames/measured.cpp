@@ -123,6 +123,10 @@ Measured as_given(const Model& model, ContourFile file, const MeasuredOptions& o
     const Judgement scan = judge_scan(model, surface, {}, false);
     if (m.registration.judgement.faults.empty()) m.registration.judgement = scan;
   }
+  Judgement& j = m.registration.judgement;
+  if (j.faults.empty())
+    if (std::string better = better_reading(model, file, j.from_rest); !better.empty())
+      j.faults.push_back(std::move(better));
   m.frames = std::move(file.frames);
   return m;
 }
@@ -204,19 +208,29 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   refuse_unused_pixels(o, target.axes);
   refuse_unused_noise(o, target.file.frames);
   // A wrong choice is said before the registration takes its time.
+  const bool placed = target.file.model_frame || o.registered;
+  const auto of_speaker = [&](std::vector<ContourFrame> frames) {
+    if (placed && o.choice.speaker.empty()) return frames;
+    return of_one_speaker(std::move(frames), o.choice, o.target);
+  };
+  target.file.frames = of_speaker(std::move(target.file.frames));
   chosen_frames(target.file.frames, o.choice, o.target, [](const std::string&) {});
   Measured m;
-  if (target.file.model_frame || o.registered) {
+  if (placed) {
     ContourFile file = target.file.model_frame
                            ? std::move(target.file)
                            : with_one_curve_a_frame(read_contours(o.target, read), o.target);
+    file.frames = of_speaker(std::move(file.frames));
     const std::vector<std::string> remarks = file.remarks;
     m = as_given(model(), std::move(file), o);
     for (const std::string& line : remarks) remark(fmt::format("{}: {}", o.target, line));
-  } else if (format.content == Content::surface) {
-    m = as_scan(model(), std::move(target), o, read, remark);
   } else {
-    m = as_registered(model(), aligned(model(), std::move(target), o, read, remark), o, remark);
+    tell(o.target, target.file, remark);  // before the registration takes its time
+    target.file.remarks.clear();
+    m = format.content == Content::surface
+            ? as_scan(model(), std::move(target), o, read, remark)
+            : as_registered(model(), aligned(model(), std::move(target), o, read, remark), o,
+                            remark);
   }
   heed(m, o, remark);
   m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : format.noise;

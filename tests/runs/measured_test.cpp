@@ -104,5 +104,41 @@ TEST_F(MeasuredTest, WhatWasTakenForGrantedOfThePalateIsToldUnderItsName) {
   })) << testing::PrintToString(lines);
 }
 
+TEST_F(MeasuredTest, OneRegistrationDoesNotPlaceTwoHeads) {
+  const std::string path = folder.path() + "/two.csv";
+  std::ofstream out(path);
+  out << "x_mm,y_mm,frame,speaker\n";
+  for (const char* speaker : {"A", "B"})
+    for (const Vec2& q : TongueLine(model).sample(model.rest, 30))
+      out << fmt::format("{:.3f},{:.3f},1,{}\n", 1e3 * q[0] - 50, 1e3 * q[1] - 60, speaker);
+  out.close();
+  MeasuredOptions o;
+  o.target = path, o.read.facing = "left", o.read.up = "up";
+  const auto frames = [&] {
+    return read_measured(
+               o, [&]() -> const Model& { return model; }, [](const std::string&) {})
+        .frames.size();
+  };
+  EXPECT_THROW(frames(), InputError);
+  o.choice.speaker = "B";
+  EXPECT_EQ(frames(), 1u);
+  o.choice.speaker = "C";
+  EXPECT_THROW(frames(), InputError);
+}
+
+TEST_F(MeasuredTest, UpsideDownInTheModelsFrameIsNamed) {
+  const std::string path = folder.path() + "/down.csv";
+  std::ofstream out(path);
+  out << "frame,point,x_mm,z_mm\n";
+  const auto line = TongueLine(model).sample(model.rest, 30);
+  Vec2 middle = Vec2::Zero();
+  for (const Vec2& q : line) middle += q / double(line.size());
+  for (size_t k = 0; k < line.size(); ++k)
+    out << fmt::format("1,{},{:.4f},{:.4f}\n", k + 1, 1e3 * line[k][0],
+                       1e3 * (2 * middle[1] - line[k][1]));
+  out.close();
+  EXPECT_THROW(read(path), RegistrationFailed);
+}
+
 }  // namespace
 }  // namespace genio

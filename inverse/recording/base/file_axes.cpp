@@ -10,6 +10,7 @@ namespace genio {
 namespace {
 
 constexpr double shortest = 0.012, longest = 0.25;  // extent of what is measured of a tongue [m]
+constexpr double stray_times = 3;  // times as far from a frame's middle as its next point
 
 /// Diagonals of the frames' bounding boxes, the middle one.
 double typical_extent(const ContourFile& file) {
@@ -27,6 +28,31 @@ double typical_extent(const ContourFile& file) {
   if (extents.empty()) return 0;
   std::nth_element(extents.begin(), extents.begin() + long(extents.size() / 2), extents.end());
   return extents[extents.size() / 2];
+}
+
+/// The point that lies far from all others of its frame, where one does: "frame 3, point 7: (...)".
+std::string stray_point(const ContourFile& file) {
+  for (const ContourFrame& frame : file.frames) {
+    if (frame.points.size() < 5) continue;
+    Vec3 middle;
+    for (int i = 0; i < 3; ++i) {
+      std::vector<double> along;
+      for (const ContourPoint& p : frame.points) along.push_back(p.position[i]);
+      std::nth_element(along.begin(), along.begin() + long(along.size() / 2), along.end());
+      middle[i] = along[along.size() / 2];
+    }
+    const auto off = [&](const ContourPoint& p) {
+      return std::hypot(p.position[0] - middle[0], p.position[2] - middle[2]);
+    };
+    std::vector<double> ways;
+    for (const ContourPoint& p : frame.points) ways.push_back(off(p));
+    std::nth_element(ways.begin(), ways.end() - 2, ways.end());
+    for (size_t k = 0; k < frame.points.size(); ++k)
+      if (off(frame.points[k]) > stray_times * ways[ways.size() - 2])
+        return fmt::format("frame {}, point {}: ({:g}, {:g})", frame.number, k + 1,
+                           frame.points[k].position[0], frame.points[k].position[2]);
+  }
+  return {};
 }
 
 double metres(const std::string& unit, const ReadOptions& o, const std::string& path) {
@@ -58,6 +84,18 @@ double scale(ContourFile& file, const FileAxes& axes, const std::string& path,
         path, extent));
   if (unit.empty()) unit = "mm";
   const double size = metres(unit, o, path);
+  const bool shape = file.format.content != Content::sensors;
+  const bool small = shape && extent > 0 && extent * size < shortest;
+  if (const bool large = extent > 0 && !(extent * size < longest); small || large)
+    if (const std::string point = stray_point(file); !point.empty())
+      throw InputError(fmt::format(
+          "{}: {} lies far from the other points of its frame; was a decimal point lost?", path,
+          point));
+  if (small)
+    throw InputError(
+        fmt::format("{}: contours of {:.4g} mm in {}; a tongue's have 20 to 200 mm. Is each row a "
+                    "frame where each column should be one, or are the units others (--units)?",
+                    path, 1e3 * extent * size, unit));
   if (extent > 0 && !(extent * size < longest))
     throw InputError(fmt::format(
         "{}: contours of {:.4g} mm in {}; a tongue's have 20 to 200 mm{}", path,

@@ -36,7 +36,8 @@ struct KnotTitle {
 /// "X12 Tongue" taken apart.
 std::optional<KnotTitle> knot_title(const std::string& field) {
   const std::string title = trimmed(field);
-  if (title.size() < 4 || (title[0] != 'X' && title[0] != 'Y')) return {};
+  const char axis = title.empty() ? ' ' : lower_case(title)[0];
+  if (title.size() < 4 || (axis != 'x' && axis != 'y')) return {};
   const auto blank = title.find(' ');
   if (blank == std::string::npos || blank < 2 || blank > 5) return {};
   int number = 0;
@@ -44,7 +45,7 @@ std::optional<KnotTitle> knot_title(const std::string& field) {
     if (title[k] < '0' || title[k] > '9') return {};
     number = 10 * number + (title[k] - '0');
   }
-  return KnotTitle{title[0] == 'Y', number, trimmed(title.substr(blank))};
+  return KnotTitle{axis == 'y', number, trimmed(title.substr(blank))};
 }
 
 bool names_knots(const std::vector<std::string>& fields) {
@@ -150,15 +151,17 @@ RawContours read_cartesian(const std::string& path, const ReadOptions& o) {
   ContourFile& file = raw.file;
   file.model_frame = false;
   std::string line = lines.first_filled();
-  auto fields = split_fields(line, '\t');
+  // AAA writes tabs; a spreadsheet that saved its table, semicolons or commas.
+  const char separator = line.find('\t') != line.npos ? '\t' : separator_of(line);
+  auto fields = split_fields(line, separator);
   const bool header = names_knots(fields);
   const Layout layout = header ? from_header(fields, o, lines) : without_header(fields, lines);
   RowLength length(fields.size(), lines);
-  TableNumbers numbers('\t');
+  TableNumbers numbers(separator);
   AaaLosses losses;
   if (header && !lines.next_filled(line)) lines.fail("the file has no data row");
   do {
-    fields = split_fields(line, '\t');
+    fields = split_fields(line, separator);
     length.check(fields);
     ContourFrame frame =
         aaa_frame(int(file.frames.size()) + 1, layout.before, fields, numbers, lines);
@@ -182,6 +185,8 @@ RawContours read(const std::string& path, const ReadOptions& o) {
 /// is missing.
 bool known_by_line(const FileStart& start) {
   const auto fields = split_fields(start.line, '\t');
+  const auto saved = split_fields(start.line, separator_of(start.line));
+  if (saved.size() > 2 && names_knots(saved)) return true;
   if (fields.size() < 2) return false;
   if (names_knots(fields) || names_aaa_blocks(start.line)) return true;
   return std::any_of(fields.begin(), fields.end(), [](const std::string& field) {

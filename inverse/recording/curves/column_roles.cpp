@@ -11,8 +11,8 @@ namespace {
 
 /// What columns are usually called, in small letters. The last row's are of no use.
 const std::map<std::string, std::set<std::string>> usual_titles = {
-    {"x", {"x", "x_px", "x.px"}},
-    {"y", {"y", "y_px", "y.px"}},
+    {"x", {"x", "x_px", "x.px", "x_mm", "x.mm", "x_cm", "x.cm"}},
+    {"y", {"y", "y_px", "y.px", "y_mm", "y.mm", "y_cm", "y.cm"}},
     {"frame",
      {"frame", "uniqueframe", "frame_number", "framenumber", "frame.number", "frame_no",
       "frame_num", "frame_id", "time.frame", "time_frame"}},
@@ -20,7 +20,9 @@ const std::map<std::string, std::set<std::string>> usual_titles = {
     {"label", {"label", "word", "prompt"}},
     {"likelihood", {"likelihood"}},
     {"recording", {"recording", "repetition", "rep", "token", "take", "file", "filename"}},
-    {"speaker", {"speaker", "subject", "participant"}},
+    {"speaker",
+     {"speaker", "speaker_id", "speakerid", "spk", "talker", "subject", "subject_id", "subj",
+      "participant", "participant_id"}},
     {"point", {"point", "point_number"}},
     {"", {"", "index", "unnamed: 0", "rownames"}},
 };
@@ -78,8 +80,13 @@ ColumnRoles named_roles(const std::vector<std::string>& titles,
           fmt::format("--columns names no {0}; the header has {1}. Expected "
                       "--columns x=TITLE,y=TITLE,frame=TITLE",
                       needed, list_of(titles)));
-  for (size_t c = 0; c < titles.size(); ++c)
-    if (!used.contains(c)) roles.others.push_back(c);
+  for (size_t c = 0; c < titles.size(); ++c) {
+    if (used.contains(c)) continue;
+    // Whose a row is counts, said or not: one registration does not place two heads.
+    const bool whose = usual_titles.at("speaker").contains(lower_case(trimmed(titles[c])));
+    if (whose && !roles.has("speaker")) roles.of["speaker"].push_back(c);
+    else roles.others.push_back(c);
+  }
   return roles;
 }
 

@@ -220,6 +220,10 @@ bool known_by_line(const FileStart& start) {
   std::string unknown;
   const auto titles = fields_of(start.line, separator_of(start.line));
   const ColumnRoles roles = guessed_roles(titles, unknown);
+  // The table of the README has x_mm and y_mm too, and y across.
+  if (std::any_of(titles.begin(), titles.end(),
+                  [](const auto& title) { return lower_case(trimmed(title)) == "z_mm"; }))
+    return false;
   return roles.has("x") && roles.has("y") && (unknown.empty() || roles.has("frame"));
 }
 

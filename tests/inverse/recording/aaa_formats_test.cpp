@@ -1,5 +1,7 @@
 // Exports of AAA: the right spline, whole rows, and knots that are left out only in words.
 
+#include <algorithm>
+
 #include "tests/inverse/recording/formats_fixture.hpp"
 
 namespace genio {
@@ -107,6 +109,42 @@ TEST_F(Formats, ATableOfNumbersAloneIsNotAaas) {
   const std::string said = error(write("e.txt", row + "\n"));
   EXPECT_EQ(said.find("knot"), std::string::npos);
   EXPECT_NE(said, "");
+}
+
+TEST_F(Formats, AaaMayHavePassedThroughASpreadsheet) {
+  const Spline tongue("Tongue", 20, 3, 60);
+  const std::string tabs = before + tongue.titles + "\n" + begin + tongue.values + "\n";
+  std::string commas = tabs, semicolons = tabs;
+  std::replace(commas.begin(), commas.end(), '\t', ',');
+  std::replace(semicolons.begin(), semicolons.end(), '.', ',');
+  std::replace(semicolons.begin(), semicolons.end(), '\t', ';');
+  const Vec3 first = read_contours(write("a.tsv", tabs)).frames[0].points[3].position;
+  for (const auto& [name, text] : {std::pair{"a.csv", commas}, std::pair{"b.csv", semicolons}}) {
+    const ContourFile f = read_contours(write(name, text));
+    EXPECT_EQ(f.format.name, "aaa");
+    ASSERT_EQ(f.frames[0].points.size(), 20u);
+    EXPECT_LT((f.frames[0].points[3].position - first).head<1>().norm(), 1e-12);
+  }
+}
+
+TEST_F(Formats, ContoursOfMillimetresAndStrayPointsAreNamed) {
+  std::string small = "x,y,frame\n", stray = small;
+  for (size_t k = 0; k < line.size(); ++k) {
+    small += fmt::format("{:.3f},{:.3f},1\n", 0.1 * line[k][0], 0.1 * line[k][1]);
+    stray += fmt::format("{:.3f},{:.3f},1\n", (k == 7 ? 100 : 1) * line[k][0], line[k][1]);
+  }
+  ReadOptions mm;
+  mm.units = "mm", mm.facing = "left";
+  const auto said = [&](const std::string& text) -> std::string {
+    try {
+      read_contours(write("t.csv", text), mm);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(said(small).find("Is each row a frame"), std::string::npos) << said(small);
+  EXPECT_NE(said(stray).find("frame 1, point 8"), std::string::npos) << said(stray);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST_F(Formats, DeepLabCutWithoutItsHeaderIsNamed) {
 
 TEST_F(Formats, LandmarksOfSeveralOrgansNeedARange) {
   std::string text = "version: 1\nn_points: 180\n{\n";
-  for (int k = 0; k < 180; ++k) text += fmt::format("{} {}\n", 20 + 0.3 * k, 30 + k % 2);
+  for (int k = 0; k < 180; ++k) text += fmt::format("{} {}\n", 20 + 1.5 * k, 30 + k % 2);
   const auto path = write("101.pts", text + "}\n");
   ReadOptions o = pixels();
   EXPECT_NE(error(path, o).find("--points A-B"), std::string::npos);

@@ -65,5 +65,19 @@ TEST(SensorPlace, SensorsCloseTogetherAreNotTipBladeAndDorsum) {
   EXPECT_NEAR(places.at("dorsum"), 28e-3, 1.5e-3);
 }
 
+TEST(SensorPlace, SensorsInTheOtherOrderAreAContradiction) {
+  const Model m = read_model(test::generic_model());
+  const auto file = glued(m, {"tip", "tip+18mm", "tip+9mm"}, {"tip", "tip+9mm", "tip+18mm"});
+  const std::string said = place_contradiction(m, file);
+  EXPECT_NE(said.find("the other way round"), std::string::npos) << said;
+}
+
+TEST(SensorPlace, TwoSensorsAtOnePlaceLieTogether) {
+  const Model m = read_model(test::generic_model());
+  EXPECT_NE(place_contradiction(m, glued(m, {"tip", "tip"}, {"tip", "tip+17mm"})).find("apart"),
+            std::string::npos);
+  EXPECT_EQ(place_contradiction(m, glued(m, {"tip", "tip"}, {"tip", "tip+2mm"})), "");
+}
+
 }  // namespace
 }  // namespace genio

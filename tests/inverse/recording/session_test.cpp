@@ -173,5 +173,45 @@ TEST(AxesReading, IsReadAsItIsWritten) {
     EXPECT_THROW(parse_axes(wrong), InputError) << wrong;
 }
 
+TEST_F(SessionOfAModel, ThePalateGivenAsTheTongueIsAFault) {
+  const AxesReading reading;
+  const SessionFile trace = palate(reading, Content::curves);
+  ReadOptions said;
+  said.facing = "left", said.up = "up";
+  const auto faults = align(*model, trace, trace, said).judgement.faults;
+  ASSERT_FALSE(faults.empty());
+  EXPECT_NE(faults.back().find("lie on the palate's trace"), std::string::npos) << faults.back();
+}
+
+TEST_F(SessionOfAModel, SensorsFarFromTheirPlacesAreAFault) {
+  const AxesReading reading;
+  ContourFile file = sensors(reading);
+  for (ContourPoint& p : file.frames[0].points)
+    p.kind = p.kind == "tip" ? "tip+40mm" : p.kind == "blade" ? "tip+53mm" : "tip+75mm";
+  const auto a = align(*model, {"t", file, {}}, palate(reading, Content::sensors), {});
+  EXPECT_FALSE(a.judgement.faults.empty());
+}
+
+TEST_F(SessionOfAModel, WithoutAPalateAMirroredHabitIsAskedAbout) {
+  const AxesReading true_one{0, 2, false, true};  // as the format has it
+  const FileAxes format{"mm", "right", "up"};
+  const auto postures = [&](const AxesReading& reading) {
+    ContourFile file = contour(reading);
+    std::vector<std::pair<Vec2, std::string>> rest;
+    for (const Vec2& q : TongueLine(*model).sample(model->rest, 40)) rest.emplace_back(q, "curve");
+    rest.erase(rest.begin(), rest.begin() + 8);
+    for (int k = 0; k < 3; ++k)
+      file.frames.push_back(file_of(rest, reading, Content::curves).frames[0]);
+    return file;
+  };
+  EXPECT_NO_THROW(align(*model, {"t", postures(true_one), format}, {}, {}));
+  try {
+    align(*model, {"t", postures({0, 2, true, true}), format}, {}, {});
+    FAIL() << "a mirror image was read as its format's habit has it";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("--facing left"), std::string::npos) << e.what();
+  }
+}
+
 }  // namespace
 }  // namespace genio

@@ -1,0 +1,77 @@
+#include "inverse/recording/session_faults.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "inverse/recording/frame_target.hpp"
+#include "inverse/recording/sensor_place.hpp"
+#include "inverse/recording/session_marks.hpp"
+
+namespace genio {
+namespace {
+
+constexpr double on_it = 1e-3;        // of a point on the palate's trace [m]
+constexpr double most_on_it = 0.8;    // share of a contour's points
+constexpr double far_places = 15e-3;  // of sensors from where they are glued, root mean square [m]
+constexpr double scale_slack = 0.1;   // of a scale that a palate tells
+constexpr size_t many_frames = 20;    // whose usual distances are not those of one posture
+
+Vec2 flat(const Vec3& p) { return {p[0], p[2]}; }
+
+/// How far sensors lie from where they are glued at rest, each in the middle of its places [m].
+double off_places(const Model& model, const ContourFile& file, const Similarity& transform) {
+  std::map<std::string, std::pair<Vec2, int>> sums;
+  for (const ContourFrame& frame : file.frames)
+    for (const ContourPoint& p : frame.points) {
+      auto& [sum, count] = sums.try_emplace(p.kind, Vec2::Zero(), 0).first->second;
+      sum += flat(p.position), ++count;
+    }
+  double square = 0;
+  for (const auto& [place, sum] : sums)
+    square += (transform(sum.first / sum.second) - flat(place_at_rest(model, place))).squaredNorm();
+  return std::sqrt(square / std::max<double>(1, double(sums.size())));
+}
+
+}  // namespace
+
+bool is_the_palate(const ContourFile& target, const ContourFile& palate) {
+  const std::vector<Vec2> trace = trace_of(palate);
+  if (trace.size() < 2 || target.format.content != Content::curves) return false;
+  std::vector<double> shares;
+  for (const auto& contour : midsagittal_points(target)) {
+    const auto on = std::count_if(contour.begin(), contour.end(), [&](const Vec2& q) {
+      return foot_on(trace, q).offset.norm() < on_it;
+    });
+    shares.push_back(double(on) / double(contour.size()));
+  }
+  if (shares.empty()) return false;
+  std::nth_element(shares.begin(), shares.begin() + long(shares.size() / 2), shares.end());
+  return shares[shares.size() / 2] > most_on_it;
+}
+
+std::string doubtful_places(const Model& model, const ContourFile& turned,
+                            const Registration& registration, bool by_palate) {
+  const bool knows = by_palate && turned.frames.size() >= many_frames;
+  const double scale = registration.transform.scale;
+  const std::pair<double, double> scales =
+      knows ? std::pair{(1 - scale_slack) / scale, (1 + scale_slack) / scale}
+            : std::pair{0.75, 1.3};
+  ContourFile level = turned;  // as the head is
+  for (ContourFrame& frame : level.frames)
+    for (ContourPoint& p : frame.points) {
+      const Vec2 at = registration.transform(flat(p.position)) / scale;
+      p.position = {at[0], p.position[1], at[1]};
+    }
+  if (std::string said = place_contradiction(model, level, scales); !said.empty()) return said;
+  const double off = off_places(model, turned, registration.transform);
+  if (off < far_places) return {};
+  return fmt::format(
+      "the sensors lie {:.0f} mm (root mean square) from where they are said to be glued, and "
+      "speech moves them by less than {:.0f} mm: are they at these places?",
+      1e3 * off, 1e3 * far_places);
+}
+
+}  // namespace genio

@@ -1,0 +1,18 @@
+#pragma once
+// What makes a recording doubtful beside its registration. Not for other rooms.
+
+#include "inverse/recording/session.hpp"
+
+namespace genio {
+
+/// True where the contours lie on the palate's own trace, in the numbers of the device: no tongue
+/// does along four fifths of what is seen of it.
+bool is_the_palate(const ContourFile& target, const ContourFile& palate);
+
+/// What contradicts the places of sensors: that of place_contradiction(), with the scale that the
+/// palate tells where there is one, or places far from where the sensors lie once they are
+/// registered. Empty where nothing does.
+std::string doubtful_places(const Model& model, const ContourFile& turned,
+                            const Registration& registration, bool by_palate);
+
+}  // namespace genio
