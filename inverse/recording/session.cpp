@@ -224,14 +224,14 @@ AlignedRecording align_by_all(const Model& model, SessionFile target,
           target.path, described(best, content), described(said[k], content)));
   // Which way a probe is held is a habit too, and without a palate its mirror image costs little
   // more: of 36 recordings 35 cost less the right way round, by 0.5 to 4.
-  const bool by_habit = options.facing.empty() && options.axes.empty();
+  const bool said_so = !options.facing.empty() || !options.axes.empty();
   const bool mirrored = content == Content::curves && !palate && judgement.faults.empty() &&
                         !others.empty() && others.front().cost + better_alone < best.cost;
-  if (mirrored && by_habit)
+  if (mirrored && !said_so && target.file.format.facing_by_habit)
     throw InputError(fmt::format(
         "{}: its format has {}, and without a palate {} fits better; say which by those options",
         target.path, described(best, content), described(others.front(), content)));
-  if (mirrored)
+  if (mirrored && said_so)
     target.file.remarks.push_back(fmt::format("{} fits better than what was said: is it so?",
                                               described(others.front(), content)));
   const bool on_palate = palate && is_the_palate(target.file, palate->file);

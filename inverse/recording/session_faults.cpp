@@ -15,7 +15,7 @@ namespace {
 
 constexpr double on_it = 1e-3;        // of a point on the palate's trace [m]
 constexpr double most_on_it = 0.8;    // share of a contour's points
-constexpr double far_places = 15e-3;  // of sensors from where they are glued, root mean square [m]
+constexpr double far_places = 20e-3;  // of sensors from where they are glued, root mean square [m]
 constexpr double scale_slack = 0.1;   // of a scale that a palate tells
 constexpr size_t many_frames = 20;    // whose usual distances are not those of one posture
 

@@ -41,6 +41,8 @@ struct FormatTraits {
   std::string name;  ///< as --format names it
   Content content = Content::curves;
   double noise = point_noise;  ///< what one assumes when nobody says [m]
+  /// Which way the face looks is a habit of the program's users, and no file says it.
+  bool facing_by_habit = false;
 };
 
 /// What no file says, or what the caller knows better.

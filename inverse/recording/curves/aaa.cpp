@@ -201,7 +201,7 @@ bool known_by_line(const FileStart& start) {
 }  // namespace
 
 ContourFormat aaa_format() {
-  return {.traits = {.name = "aaa", .noise = ultrasound_noise},
+  return {.traits = {.name = "aaa", .noise = ultrasound_noise, .facing_by_habit = true},
           .about = "AAA exports, Cartesian and polar, with or without header",
           .known_by_bytes = {},
           .known_by_line = known_by_line,

@@ -206,7 +206,9 @@ TEST_F(SessionOfAModel, WithoutAPalateAMirroredHabitIsAskedAbout) {
   };
   EXPECT_NO_THROW(align(*model, {"t", postures(true_one), format}, {}, {}));
   try {
-    align(*model, {"t", postures({0, 2, true, true}), format}, {}, {});
+    ContourFile mirrored = postures({0, 2, true, true});
+    mirrored.format.facing_by_habit = true;
+    align(*model, {"t", mirrored, format}, {}, {});
     FAIL() << "a mirror image was read as its format's habit has it";
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("--facing left"), std::string::npos) << e.what();
