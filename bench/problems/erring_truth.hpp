@@ -17,7 +17,7 @@ enum class ModelFault {
 };
 
 inline constexpr std::array all_faults = {ModelFault::turned_fibres, ModelFault::single_lines,
-                                   ModelFault::other_shares, ModelFault::other_law};
+                                          ModelFault::other_shares, ModelFault::other_law};
 const char* to_string(ModelFault fault);
 
 /// The tongue of that fault, the same on both sides. The seed draws its random parts.

@@ -16,7 +16,7 @@ enum class Measurement {
 };
 
 inline constexpr std::array all_measurements = {Measurement::curve, Measurement::slices,
-                                         Measurement::surface};
+                                                Measurement::surface};
 const char* to_string(Measurement what);
 
 /// The shape x [m] of `tongue` with Gaussian noise [m] in every coordinate that counts.
