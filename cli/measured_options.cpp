@@ -46,6 +46,9 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--palate-format", o.palate_format,
               "Its format, where it is another than the target's",
               {.suggested = formats, .only_with = {"--palate"}});
+  options.add("--palate-units", o.palate_units,
+              "Its units, where they are others than the target's",
+              {.suggested = {"mm", "cm", "m", "um", "px"}, .only_with = {"--palate"}});
   options.add("--palate-spline", o.palate_spline, "The spline to take there, of several",
               {.only_with = {"--palate"}});
   options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there",

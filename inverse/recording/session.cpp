@@ -18,6 +18,7 @@ constexpr double place_sd = 10e-3;  // of a marked point about its place at rest
 // Costs that differ by less do not tell two readings apart, by a palate and by contours alone.
 constexpr double alike = 6, alike_alone = 12;
 constexpr double far_better = 12;   // what it takes to doubt what was said
+constexpr size_t least_points = 5;  // of contours that stand alone
 constexpr double better_alone = 1;  // the same of a habit where contours stand alone
 constexpr double oblique = 18 * std::numbers::pi / 180;  // of a bite plane that is doubted
 constexpr double unusual = 15;  // cost of an articulograph whose third axis is not up
@@ -189,6 +190,13 @@ AlignedRecording align_by_all(const Model& model, SessionFile target,
   const ContourFile* trace = palate ? &palate->file : nullptr;
   if (trace && trace_of(*trace).empty())
     throw InputError(palate->path + ": no palate point has a value");
+  size_t points = 0;
+  for (const auto& contour : midsagittal_points(target.file)) points += contour.size();
+  if (!trace && points < least_points)
+    throw InputError(fmt::format(
+        "{}: without a palate a recording is laid beside the model by its contours, which takes {} "
+        "points and more; it has {}",
+        target.path, least_points, points));
   const Traces session{&target.file, trace, &marks};
   const Vec3 extent = spread(target.file, trace);
   const TongueReach reach = reach_of(model);

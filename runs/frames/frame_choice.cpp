@@ -137,7 +137,7 @@ std::vector<ContourFrame> of_one_speaker(std::vector<ContourFrame> frames,
   }
   if (!speakers.contains(choice.speaker))
     throw InputError(fmt::format("--speaker {}: {} has {}", choice.speaker, path,
-                                 speakers.empty() || *speakers.rbegin() == ""
+                                 speakers.empty() || speakers.rbegin()->empty()
                                      ? "no names of speakers"
                                      : fmt::format("{}", fmt::join(speakers, ", "))));
   std::erase_if(frames, [&](const ContourFrame& f) { return f.speaker != choice.speaker; });

@@ -80,6 +80,7 @@ Question question_of(const InversionOptions& o, double noise) {
           {"spline", m.read.spline},
           {"points", m.read.points},
           {"palate_format", m.palate_format},
+          {"palate_units", m.palate_units},
           {"palate_spline", m.palate_spline},
           {"rate_hz", m.read.rate_hz},
           {"registered", m.registered},

@@ -54,6 +54,10 @@ std::optional<SessionFile> palate_of(const MeasuredOptions& o, const ReadOptions
   // A trace beside sensors is of another format, unless it is a sensor's sweep.
   if (o.palate_sensor.empty() && names_sensors(o.read.format)) options.format = "auto";
   if (!o.palate_format.empty()) options.format = o.palate_format;
+  if (!o.palate_units.empty()) {
+    options.units = o.palate_units;
+    if (o.palate_units != "px") options.mm_per_px = 0;
+  }
   std::optional<SessionFile> palate = read_palate(o.palate, options, target);
   tell(palate->path, palate->file, remark);
   return palate;

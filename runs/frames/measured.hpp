@@ -17,7 +17,7 @@ namespace genio {
 
 /// As the command line gives them; errors name its options.
 struct MeasuredOptions {
-  std::string target, palate, palate_format, palate_sensor, palate_spline, bite_plane;
+  std::string target, palate, palate_format, palate_units, palate_sensor, palate_spline, bite_plane;
   std::string hyoid, short_tendon, jaw_shadow;  ///< "X,Y" in the target's numbers
   std::vector<std::string> bite_plane_sensors;
   FrameChoice choice;

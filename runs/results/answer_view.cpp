@@ -1,8 +1,39 @@
 #include "runs/results/answer_view.hpp"
 
+#include <cmath>
+
+#include "inverse/target/moved_target.hpp"
 #include "inverse/target/tongue_line.hpp"
 
 namespace genio {
+namespace {
+
+constexpr double near_midplane = 3e-3;  // of a surface point that is shown beside the line [m]
+
+HeadPose pose_of(const std::vector<Estimate>& others) {
+  HeadPose pose;
+  for (const Estimate& e : others) {
+    if (e.name == "head_pose.x") pose.shift[0] = e.best;
+    if (e.name == "head_pose.z") pose.shift[1] = e.best;
+    if (e.name == "head_pose.turn") pose.turn = e.best;
+  }
+  return pose;
+}
+
+/// Where points were measured, once the head is where it was found to be.
+std::vector<Vec2> measured_points(const Target& target, const HeadPose& pose) {
+  const Vec2 middle = target.middle();
+  const MovedTarget moved(pose, middle);
+  std::vector<Vec2> points;
+  for (const auto& p : target.curve) points.push_back(moved(p.position));
+  for (const auto& p : target.flesh) points.push_back(moved(Vec2(p.position[0], p.position[2])));
+  for (const auto& p : target.surface)
+    if (std::abs(p.position[1]) < near_midplane)
+      points.push_back(moved(Vec2(p.position[0], p.position[2])));
+  return points;
+}
+
+}  // namespace
 
 AnswerView view_of(const Model& model, const Target& target, const Answer& a) {
   AnswerView v;
@@ -12,8 +43,7 @@ AnswerView view_of(const Model& model, const Target& target, const Answer& a) {
   v.weight = a.weight, v.alternatives = a.alternatives, v.outliers = a.residuals.outliers;
   v.rms_mm = 1e3 * a.rms, v.max_mm = 1e3 * a.max, v.chi2_per_dof = a.chi2_per_dof;
   v.wall_s = a.wall_s, v.iterations = a.iterations, v.factorizations = a.factorizations;
-  for (const auto& p : target.curve) v.measured.push_back(p.position);
-  for (const auto& p : target.flesh) v.measured.emplace_back(p.position[0], p.position[2]);
+  v.measured = measured_points(target, pose_of(a.others));
   if (a.shape.size() > 0) v.predicted = TongueLine(model).sample(a.shape, 120);
   return v;
 }

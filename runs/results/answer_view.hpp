@@ -21,8 +21,9 @@ struct AnswerView {
   int outliers = 0;
   double rms_mm = 0, max_mm = 0, chi2_per_dof = 0, wall_s = 0;
   int iterations = 0, factorizations = 0;
-  std::string registration;               ///< registration_json() as text; empty: not told
-  std::vector<Vec2> measured, predicted;  ///< midsagittal, (x, z) [m]
+  std::string registration;  ///< registration_json() as text; empty: not told
+  /// Midsagittal, (x, z) [m]; measured points as the head is estimated to have been.
+  std::vector<Vec2> measured, predicted;
 };
 
 /// All but what is said of the frame itself.
