@@ -13,11 +13,13 @@
 namespace genio {
 namespace {
 
-constexpr double on_it = 1e-3;        // of a point on the palate's trace [m]
-constexpr double most_on_it = 0.8;    // share of a contour's points
-constexpr double far_places = 20e-3;  // of sensors from where they are glued, root mean square [m]
-constexpr double scale_slack = 0.1;   // of a scale that a palate tells
-constexpr size_t many_frames = 20;    // whose usual distances are not those of one posture
+constexpr double on_it = 1e-3;      // of a point on the palate's trace [m]
+constexpr double most_on_it = 0.8;  // share of a contour's points
+// Of sensors from where they are glued, root mean square [m]: over a session, and in few frames,
+// which may all be of one strong posture.
+constexpr double far_places = 20e-3, far_in_few_frames = 35e-3;
+constexpr double scale_slack = 0.1;  // of a scale that a palate tells
+constexpr size_t many_frames = 20;   // whose usual distances are not those of one posture
 
 Vec2 flat(const Vec3& p) { return {p[0], p[2]}; }
 
@@ -67,11 +69,12 @@ std::string doubtful_places(const Model& model, const ContourFile& turned,
     }
   if (std::string said = place_contradiction(model, level, scales); !said.empty()) return said;
   const double off = off_places(model, turned, registration.transform);
-  if (off < far_places) return {};
+  const double most = turned.frames.size() >= many_frames ? far_places : far_in_few_frames;
+  if (off < most) return {};
   return fmt::format(
       "the sensors lie {:.0f} mm (root mean square) from where they are said to be glued, and "
       "speech moves them by less than {:.0f} mm: are they at these places?",
-      1e3 * off, 1e3 * far_places);
+      1e3 * off, 1e3 * most);
 }
 
 }  // namespace genio

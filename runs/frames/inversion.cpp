@@ -112,7 +112,12 @@ FrameOptions frame_options(const Model& model, const InversionOptions& o,
                            const std::optional<HeadPosePrior>& head_pose) {
   FrameOptions options;
   options.prior = checked_prior(model, o);
-  if (!options.prior.head_pose) options.prior.head_pose = head_pose;
+  if (!options.prior.head_pose && head_pose && o.dynamic && o.measured.palate.empty())
+    throw InputError(fmt::format(
+        "--dynamic: takes the head's place as known, and without a palate it is within {:.1f} mm "
+        "only; give --palate, or --registered where it is known",
+        1e3 * head_pose->shift_sd));
+  if (!options.prior.head_pose && !o.dynamic) options.prior.head_pose = head_pose;
   options.infer.deadline_s = o.deadline_s;
   options.infer.full_space = o.full_space;
   if (o.bilateral) options.infer.bilateral = true;

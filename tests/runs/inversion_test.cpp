@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "forward/base/text_file.hpp"
+#include "forward/model/build_model.hpp"
+#include "tests/forward/small_model.hpp"
 #include "tests/runs/temporary_folder.hpp"
 
 namespace genio {
@@ -35,6 +37,18 @@ TEST(QuestionOfAnInversion, PointsOfTheHeadAreAskedAlong) {
   EXPECT_NE(other([](auto& m) { m.short_tendon = "1,2"; }), "");
   EXPECT_NE(other([](auto& m) { m.jaw_shadow = "1,2"; }), "");
   EXPECT_NE(other([](auto& m) { m.ignore_marks = true; }), "");
+}
+
+TEST(QuestionOfAnInversion, AMovementTakesTheHeadsPlaceFromAPalateOnly) {
+  const Model model = read_model(test::generic_model());
+  const HeadPosePrior open{2e-3, 0.05};
+  InversionOptions o;
+  EXPECT_TRUE(frame_options(model, o, open).prior.head_pose);
+  o.dynamic = true;
+  EXPECT_THROW(frame_options(model, o, open), InputError);
+  EXPECT_FALSE(frame_options(model, o, {}).prior.head_pose);
+  o.measured.palate = "palate.csv";
+  EXPECT_FALSE(frame_options(model, o, open).prior.head_pose);
 }
 
 }  // namespace
