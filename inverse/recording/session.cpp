@@ -15,6 +15,8 @@ namespace genio {
 namespace {
 
 constexpr double place_sd = 10e-3;  // of a marked point about its place at rest [m]
+// Sensors may be called wrongly, and must not turn the device for it.
+constexpr double most_place_cost = 12;
 // Costs that differ by less do not tell two readings apart, by a palate and by contours alone.
 constexpr double alike = 6, alike_alone = 12;
 constexpr double far_better = 12;   // what it takes to doubt what was said
@@ -84,7 +86,7 @@ bool agrees(const AxesReading& r, const FileAxes& format, const ReadOptions& o, 
 }
 
 /// Squared distances of marked points, each in the middle of its places, from where they are glued
-/// at rest, over their variance.
+/// at rest, over their variance, as far as they count.
 double place_cost(const Model& model, const ContourFile& file, const Similarity& s) {
   std::map<std::string, std::pair<Vec2, int>> sums;
   for (const ContourFrame& frame : file.frames)
@@ -99,7 +101,7 @@ double place_cost(const Model& model, const ContourFile& file, const Similarity&
     const Vec2 off = s(sum.first / sum.second) - Vec2(rest[0], rest[2]);
     cost += off.squaredNorm() / (place_sd * place_sd);
   }
-  return cost;
+  return std::min(cost, most_place_cost);
 }
 
 Candidate candidate(const Model& model, const TongueReach& reach, const Traces& session,
