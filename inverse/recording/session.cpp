@@ -15,8 +15,9 @@ namespace genio {
 namespace {
 
 constexpr double place_sd = 10e-3;  // of a marked point about its place at rest [m]
-// Sensors may be called wrongly, and must not turn the device for it.
-constexpr double most_place_cost = 12;
+// Sensors may be called wrongly, and must not turn the device for it: beyond this their places
+// cost by the distance and no longer by its square.
+constexpr double square_place_cost = 12;
 // Costs that differ by less do not tell two readings apart, by a palate and by contours alone.
 constexpr double alike = 6, alike_alone = 12;
 constexpr double far_better = 12;   // what it takes to doubt what was said
@@ -101,7 +102,7 @@ double place_cost(const Model& model, const ContourFile& file, const Similarity&
     const Vec2 off = s(sum.first / sum.second) - Vec2(rest[0], rest[2]);
     cost += off.squaredNorm() / (place_sd * place_sd);
   }
-  return std::min(cost, most_place_cost);
+  return cost < square_place_cost ? cost : std::sqrt(square_place_cost * cost);
 }
 
 Candidate candidate(const Model& model, const TongueReach& reach, const Traces& session,
@@ -196,8 +197,8 @@ AlignedRecording align_by_all(const Model& model, SessionFile target,
   for (const auto& contour : midsagittal_points(target.file)) points += contour.size();
   if (!trace && points < least_points)
     throw InputError(fmt::format(
-        "{}: without a palate a recording is laid beside the model by its contours, which takes {} "
-        "points and more; it has {}",
+        "{}: without a palate a recording is laid beside the model by its contours, which takes "
+        "at least {} points; it has {}",
         target.path, least_points, points));
   const Traces session{&target.file, trace, &marks};
   const Vec3 extent = spread(target.file, trace);
