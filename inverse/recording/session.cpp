@@ -15,9 +15,6 @@ namespace genio {
 namespace {
 
 constexpr double place_sd = 10e-3;  // of a marked point about its place at rest [m]
-// Sensors may be called wrongly, and must not turn the device for it: beyond this their places
-// cost by the distance and no longer by its square.
-constexpr double square_place_cost = 12;
 // Costs that differ by less do not tell two readings apart, by a palate and by contours alone.
 constexpr double alike = 6, alike_alone = 12;
 constexpr double far_better = 12;   // what it takes to doubt what was said
@@ -86,8 +83,11 @@ bool agrees(const AxesReading& r, const FileAxes& format, const ReadOptions& o, 
          (up.empty() || r.up_grows == (up == "up"));
 }
 
+/// An articulograph that stands as most do.
+bool level(const AxesReading& r) { return r.up == 2 && r.up_grows; }
+
 /// Squared distances of marked points, each in the middle of its places, from where they are glued
-/// at rest, over their variance, as far as they count.
+/// at rest, over their variance.
 double place_cost(const Model& model, const ContourFile& file, const Similarity& s) {
   std::map<std::string, std::pair<Vec2, int>> sums;
   for (const ContourFrame& frame : file.frames)
@@ -102,7 +102,7 @@ double place_cost(const Model& model, const ContourFile& file, const Similarity&
     const Vec2 off = s(sum.first / sum.second) - Vec2(rest[0], rest[2]);
     cost += off.squaredNorm() / (place_sd * place_sd);
   }
-  return cost < square_place_cost ? cost : std::sqrt(square_place_cost * cost);
+  return cost;
 }
 
 Candidate candidate(const Model& model, const TongueReach& reach, const Traces& session,
@@ -120,8 +120,7 @@ Candidate candidate(const Model& model, const TongueReach& reach, const Traces& 
   for (const auto& [point, known] : marks.points)
     c.head_points[point] = (c.registration.transform(known.in_recording) - known.in_model).norm();
   c.cost = c.registration.cost + place_cost(model, file, c.registration.transform);
-  if (target.format.content == Content::sensors && !(reading.up == 2 && reading.up_grows))
-    c.cost += unusual;
+  if (target.format.content == Content::sensors && !level(reading)) c.cost += unusual;
   return c;
 }
 
@@ -228,8 +227,14 @@ AlignedRecording align_by_all(const Model& model, SessionFile target,
         chosen = k, judgement = std::move(other);
   const Candidate& best = said[chosen];
   const double near = palate ? alike : alike_alone;
+  // Sensors may be called wrongly, and must not turn the device for it.
+  const auto by_places_alone = [&](const Candidate& c) {
+    return !level(best.reading) && level(c.reading) &&
+           c.registration.cost < best.registration.cost + near;
+  };
   for (size_t k = 0; k < said.size() && judgement.faults.empty(); ++k)
-    if (k != chosen && said[k].cost < best.cost + near && judged(said[k]).faults.empty())
+    if (k != chosen && (said[k].cost < best.cost + near || by_places_alone(said[k])) &&
+        judged(said[k]).faults.empty())
       throw InputError(fmt::format(
           "{}: two readings of its axes fit alike, {} and {}; say which by those options",
           target.path, described(best, content), described(said[k], content)));
