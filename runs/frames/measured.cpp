@@ -229,8 +229,6 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
     m = as_given(model(), std::move(file), o);
     for (const std::string& line : remarks) remark(fmt::format("{}: {}", o.target, line));
   } else {
-    tell(o.target, target.file, remark);  // before the registration takes its time
-    target.file.remarks.clear();
     m = format.content == Content::surface
             ? as_scan(model(), std::move(target), o, read, remark)
             : as_registered(model(), aligned(model(), std::move(target), o, read, remark), o,

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiments/recordings/spoil.hpp"
-#include "bench/problems/calibration_count.hpp"
+#include "bench/truths/calibration_count.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "inverse/recording/frame_target.hpp"

@@ -9,10 +9,10 @@
 #include <optional>
 #include <random>
 
-#include "bench/problems/calibration_count.hpp"
 #include "bench/problems/clock.hpp"
-#include "bench/problems/erring_truth.hpp"
-#include "bench/problems/measured_shape.hpp"
+#include "bench/truths/calibration_count.hpp"
+#include "bench/truths/erring_truth.hpp"
+#include "bench/truths/measured_shape.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/mirror.hpp"
 #include "inverse/search/multi_start.hpp"

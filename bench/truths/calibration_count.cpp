@@ -1,4 +1,4 @@
-#include "bench/problems/calibration_count.hpp"
+#include "bench/truths/calibration_count.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "bench/problems/erring_truth.hpp"
+#include "bench/truths/erring_truth.hpp"
 
 #include <functional>
 #include <random>

@@ -1,4 +1,4 @@
-#include "bench/problems/measured_shape.hpp"
+#include "bench/truths/measured_shape.hpp"
 
 #include <algorithm>
 
