@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "inverse/recording/base/curve_pieces.hpp"
-#include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/session_faults.hpp"
 #include "inverse/recording/session_marks.hpp"
 
@@ -25,7 +24,6 @@ constexpr double unusual = 15;  // cost of an articulograph whose third axis is 
 
 struct Candidate {
   AxesReading reading;
-  bool said = false;  ///< agrees with what the caller and, of curves, the format say
   Registration registration = {};
   double cost = 0;  ///< of the registration and of marked points about their places
   std::optional<double> bite_plane = {};         ///< as of AlignedRecording
@@ -86,22 +84,11 @@ bool agrees(const AxesReading& r, const FileAxes& format, const ReadOptions& o, 
 /// An articulograph that stands as most do.
 bool level(const AxesReading& r) { return r.up == 2 && r.up_grows; }
 
-/// Squared distances of marked points, each in the middle of its places, from where they are glued
-/// at rest, over their variance.
+/// Squared distances of marked points from where they are glued at rest, over their variance.
 double place_cost(const Model& model, const ContourFile& file, const Similarity& s) {
-  std::map<std::string, std::pair<Vec2, int>> sums;
-  for (const ContourFrame& frame : file.frames)
-    for (const ContourPoint& p : frame.points) {
-      if (p.kind == "curve" || p.kind == "surface" || p.kind == "volume") continue;
-      auto& [sum, count] = sums.try_emplace(p.kind, Vec2::Zero(), 0).first->second;
-      sum += Vec2(p.position[0], p.position[2]), ++count;
-    }
   double cost = 0;
-  for (const auto& [place, sum] : sums) {
-    const Vec3 rest = place_at_rest(model, place);
-    const Vec2 off = s(sum.first / sum.second) - Vec2(rest[0], rest[2]);
+  for (const Vec2& off : place_offsets(model, file, s))
     cost += off.squaredNorm() / (place_sd * place_sd);
-  }
   return cost;
 }
 
@@ -185,7 +172,7 @@ SessionFile read_bite_plane(const std::string& path, ReadOptions options,
 namespace {
 
 /// align() that takes all marks for true.
-AlignedRecording align_by_all(const Model& model, SessionFile target,
+AlignedRecording align_by_all(const Model& model, const TongueReach& reach, SessionFile target,
                               const std::optional<SessionFile>& palate, const ReadOptions& options,
                               const SessionMarks& marks) {
   const Content content = target.file.format.content;
@@ -201,7 +188,6 @@ AlignedRecording align_by_all(const Model& model, SessionFile target,
         target.path, least_points, points));
   const Traces session{&target.file, trace, &marks};
   const Vec3 extent = spread(target.file, trace);
-  const TongueReach reach = reach_of(model);
   std::vector<Candidate> said, others;
   for (const AxesReading& reading : all_readings(target.file)) {
     const bool agreed = agrees(reading, target.axes, options, content);
@@ -289,8 +275,9 @@ AlignedRecording align_by_all(const Model& model, SessionFile target,
 AlignedRecording align(const Model& model, SessionFile target,
                        const std::optional<SessionFile>& palate, const ReadOptions& options,
                        const SessionMarks& marks) {
+  const TongueReach reach = reach_of(model);  // takes a solve a muscle
   return by_marks_that_agree(model, marks, [&](const SessionMarks& some) {
-    return align_by_all(model, target, palate, options, some);
+    return align_by_all(model, reach, target, palate, options, some);
   });
 }
 

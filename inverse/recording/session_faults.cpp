@@ -23,21 +23,21 @@ constexpr size_t many_frames = 20;   // whose usual distances are not those of o
 
 Vec2 flat(const Vec3& p) { return {p[0], p[2]}; }
 
-/// How far sensors lie from where they are glued at rest, each in the middle of its places [m].
-double off_places(const Model& model, const ContourFile& file, const Similarity& transform) {
+}  // namespace
+
+std::vector<Vec2> place_offsets(const Model& model, const ContourFile& file, const Similarity& s) {
   std::map<std::string, std::pair<Vec2, int>> sums;
   for (const ContourFrame& frame : file.frames)
     for (const ContourPoint& p : frame.points) {
+      if (p.kind == "curve" || p.kind == "surface" || p.kind == "volume") continue;
       auto& [sum, count] = sums.try_emplace(p.kind, Vec2::Zero(), 0).first->second;
       sum += flat(p.position), ++count;
     }
-  double square = 0;
+  std::vector<Vec2> offsets;
   for (const auto& [place, sum] : sums)
-    square += (transform(sum.first / sum.second) - flat(place_at_rest(model, place))).squaredNorm();
-  return std::sqrt(square / std::max<double>(1, double(sums.size())));
+    offsets.push_back(s(sum.first / sum.second) - flat(place_at_rest(model, place)));
+  return offsets;
 }
-
-}  // namespace
 
 bool is_the_palate(const ContourFile& target, const ContourFile& palate) {
   const std::vector<Vec2> trace = trace_of(palate);
@@ -68,7 +68,10 @@ std::string doubtful_places(const Model& model, const ContourFile& turned,
       p.position = {at[0], p.position[1], at[1]};
     }
   if (std::string said = place_contradiction(model, level, scales); !said.empty()) return said;
-  const double off = off_places(model, turned, registration.transform);
+  double square = 0, count = 0;
+  for (const Vec2& o : place_offsets(model, turned, registration.transform))
+    square += o.squaredNorm(), ++count;
+  const double off = std::sqrt(square / std::max(1.0, count));
   const double most = turned.frames.size() >= many_frames ? far_places : far_in_few_frames;
   if (off < most) return {};
   return fmt::format(

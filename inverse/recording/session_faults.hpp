@@ -9,6 +9,10 @@ namespace genio {
 /// does along four fifths of what is seen of it.
 bool is_the_palate(const ContourFile& target, const ContourFile& palate);
 
+/// How far marked points lie, once they are registered, from where they are glued at rest, each in
+/// the middle of its places [m].
+std::vector<Vec2> place_offsets(const Model& model, const ContourFile& file, const Similarity& s);
+
 /// What contradicts the places of sensors: that of place_contradiction(), with the scale that the
 /// palate tells where there is one, or places far from where the sensors lie once they are
 /// registered. Empty where nothing does.

@@ -152,7 +152,7 @@ RawContours read_cartesian(const std::string& path, const ReadOptions& o) {
   file.model_frame = false;
   std::string line = lines.first_filled();
   // AAA writes tabs; a spreadsheet that saved its table, semicolons or commas.
-  const char separator = line.find('\t') != line.npos ? '\t' : separator_of(line);
+  const char separator = separator_of(line);
   auto fields = split_fields(line, separator);
   const bool header = names_knots(fields);
   const Layout layout = header ? from_header(fields, o, lines) : without_header(fields, lines);

@@ -73,7 +73,6 @@ ScanRegistration registration_of(const ScanProblem& problem, const ScanFit& fit)
   std::vector<Vec3> moved;
   for (const Vec3& q : problem.points) moved.push_back(fit.pose(q));
   r.off_reach = rms_from_surface(problem.reach.facets, fit.shape, moved);
-  r.from_rest = rms_from_surface(problem.reach.facets, problem.reach.rest, moved);
   double square = 0;
   for (const Vec3& q : problem.trace) {
     const Vec3 at = fit.pose(q);

@@ -38,7 +38,6 @@ struct ScanRegistration {
   double cost = 0;        ///< squares in units of their standard deviations
   double palate_rms = 0;  ///< of the scan's palate from the model's [m]
   double off_reach = 0;   ///< root mean square of the scan from a surface that muscles make [m]
-  double from_rest = 0;   ///< the same from the surface at rest
   double free_scale = 1, free_gain = 0;  ///< as of Registration
   /// How well it is known: of the middle in the midsagittal plane [m], and of the turn there [rad].
   double shift_sd = 0, tilt_sd = 0;
