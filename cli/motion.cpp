@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "cli/changed_model.hpp"
 #include "cli/landmarks.hpp"
+#include "cli/option_sets/changed_model.hpp"
 #include "cli/result_json.hpp"
 #include "forward/base/elapsed.hpp"
 #include "forward/motion/dynamics.hpp"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "forward/base/text_file.hpp"
 #include "inverse/target/tongue_line.hpp"
@@ -11,6 +12,21 @@
 #include "runs/results/answer_record.hpp"
 
 namespace genio {
+namespace {
+
+/// Each set of names once: two directions may name the same commands.
+std::vector<std::vector<std::string>> told_once(const std::vector<std::vector<std::string>>& all) {
+  std::set<std::vector<std::string>> known;
+  std::vector<std::vector<std::string>> result;
+  for (const auto& group : all) {
+    auto sorted = group;
+    std::sort(sorted.begin(), sorted.end());
+    if (known.insert(sorted).second) result.push_back(group);
+  }
+  return result;
+}
+
+}  // namespace
 
 std::string to_table(const AnswerView& v) {
   std::string out;
@@ -26,7 +42,7 @@ std::string to_table(const AnswerView& v) {
   if (!v.muscles.empty())
     out += fmt::format("fit      RMS {:.2f} mm, max {:.2f} mm, chi2/dof {:.2f}\n", v.rms_mm,
                        v.max_mm, v.chi2_per_dof);
-  for (const auto& group : v.unidentified)
+  for (const auto& group : told_once(v.unidentified))
     out += fmt::format("unseen   the data {}: {}\n",
                        group.size() > 1 ? "cannot tell apart" : "say little about",
                        fmt::join(group, ", "));

@@ -1,8 +1,8 @@
 #pragma once
-#include <algorithm>
 #include <vector>
 
 #include "forward/base/elapsed.hpp"
+#include "forward/base/median.hpp"
 
 namespace genio::bench {
 
@@ -14,10 +14,7 @@ double seconds(Work work) {
   return watch.seconds();
 }
 
-inline double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
+using genio::median;
 
 template <class Work>
 double median_seconds(int times, Work work) {

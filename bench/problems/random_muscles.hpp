@@ -6,13 +6,14 @@
 
 namespace genio::bench {
 
-/// 2 to 5 of `count` muscles, by index.
+/// `fewest` to `most` of `count` muscles, by index.
 inline std::vector<int> some_muscles(size_t count, std::mt19937& random,
-                                     std::uniform_real_distribution<double>& uniform) {
+                                     std::uniform_real_distribution<double>& uniform,
+                                     int fewest = 2, int most = 5) {
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), random);
-  order.resize(2 + size_t(4 * uniform(random)));
+  order.resize(size_t(fewest) + size_t((most - fewest + 1) * uniform(random)));
   return order;
 }
 

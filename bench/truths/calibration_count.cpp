@@ -6,10 +6,8 @@
 #include "forward/tissue/fibres.hpp"
 
 namespace genio::bench {
-namespace {
 
-/// The part of the tongue's muscles that one belongs to.
-std::string group_of(const std::string& muscle) {
+std::string muscle_group(const std::string& muscle) {
   static const std::map<std::string, std::vector<std::string>> members_of = {
       {"genioglossus", {"GGP", "GGM", "GGA"}},
       {"other extrinsic", {"STY", "HG", "PG"}},
@@ -19,8 +17,6 @@ std::string group_of(const std::string& muscle) {
     if (std::find(members.begin(), members.end(), muscle) != members.end()) return group;
   return "other";
 }
-
-}  // namespace
 
 nlohmann::json CalibrationCount::Share::json() const {
   return of == 0 ? nlohmann::json() : nlohmann::json(double(inside) / of);
@@ -37,7 +33,7 @@ void CalibrationCount::add(const std::vector<Estimate>& muscles,
     const auto found = truth.find(both);
     const double force = found == truth.end() ? 0 : found->second / (both == e.name ? 1 : 2);
     const bool holds = force >= e.low - 1e-9 && force <= e.high + 1e-9;
-    const std::string group = group_of(both);
+    const std::string group = muscle_group(both);
     (force > 0 ? active_ : resting_).add(holds);
     (force > 0 ? active_by_group_ : resting_by_group_)[group].add(holds);
     if (force > 0) width_ += (e.high - e.low) / e.maximum;

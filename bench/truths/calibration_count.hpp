@@ -10,6 +10,9 @@
 
 namespace genio::bench {
 
+/// The part of the tongue's muscles that one belongs to, by its bilateral name.
+std::string muscle_group(const std::string& muscle);
+
 /// Counts of one kind of target.
 class CalibrationCount {
  public:

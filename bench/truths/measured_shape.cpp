@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
+#include "forward/base/thin.hpp"
 #include "forward/tissue/tongue_faces.hpp"
 #include "inverse/target/facets.hpp"
 
 namespace genio::bench {
 namespace {
 
-constexpr int curve_points = 40, slice_points = 20, surface_points = 120;
+constexpr int curve_points = 40;
+constexpr size_t slice_points = 20, surface_points = 120;
 constexpr double upward = 0.2;  // of a facet's normal, where a device above or below sees it
 constexpr std::array slices_at = {0.35, 0.6};  // of the way from tip to root along x
 
@@ -36,14 +38,6 @@ std::vector<Vec3> cut(const std::vector<std::array<Vec3, 3>>& facets, double at)
   return points;
 }
 
-template <class T>
-std::vector<T> evenly(const std::vector<T>& all, int count) {
-  std::vector<T> some;
-  const size_t n = std::min(size_t(count), all.size());
-  for (size_t k = 0; k < n; ++k) some.push_back(all[k * all.size() / n]);
-  return some;
-}
-
 std::vector<SurfacePoint> slice_points_of(const std::vector<std::array<Vec3, 3>>& facets,
                                           double noise) {
   double front = 1e9, back = -1e9;
@@ -53,7 +47,7 @@ std::vector<SurfacePoint> slice_points_of(const std::vector<std::array<Vec3, 3>>
   int slice = 0;
   for (double part : slices_at) {
     ++slice;
-    for (const Vec3& p : evenly(cut(facets, front + part * (back - front)), slice_points))
+    for (const Vec3& p : thin(cut(facets, front + part * (back - front)), slice_points))
       points.push_back({p, noise, slice});
   }
   return points;
@@ -85,7 +79,7 @@ Target measured_shape(const Model& tongue, const Positions& x, Measurement what,
     std::vector<SurfacePoint> all;
     for (const auto& [a, b, c] : upper) all.push_back({(a + b + c) / 3, noise, 0});
     std::shuffle(all.begin(), all.end(), random);
-    target.surface = evenly(all, surface_points);
+    target.surface = thin(all, surface_points);
   }
   for (auto& p : target.curve) p.position += Vec2(normal(random), normal(random));
   for (auto& p : target.surface) p.position += Vec3(normal(random), normal(random), normal(random));

@@ -9,7 +9,7 @@
 
 #include "cli/command_line/command_line.hpp"
 #include "cli/frame_files.hpp"
-#include "cli/inversion_options.hpp"
+#include "cli/option_sets/inversion_options.hpp"
 #include "cli/support.hpp"
 #include "report/corpus_report.hpp"
 #include "runs/corpus/slurm.hpp"

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "cli/changed_model.hpp"
 #include "cli/landmarks.hpp"
 #include "cli/motion.hpp"
+#include "cli/option_sets/changed_model.hpp"
 #include "cli/result_json.hpp"
 #include "cli/run_bench.hpp"
 #include "cli/support.hpp"

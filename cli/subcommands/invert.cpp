@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cli/frame_files.hpp"
-#include "cli/inversion_options.hpp"
+#include "cli/option_sets/inversion_options.hpp"
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "report/run_summary.hpp"

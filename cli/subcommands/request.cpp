@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "cli/measured_options.hpp"
+#include "cli/option_sets/measured_options.hpp"
 #include "cli/result_json.hpp"
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "discrepancy/conditions/joint_problem.hpp"
+#include "forward/base/median.hpp"
 #include "inverse/posterior/box_gaussian.hpp"
 #include "inverse/posterior/box_integral.hpp"
 #include "inverse/posterior/posterior.hpp"
@@ -57,10 +58,10 @@ std::vector<Answer> each_alone(ConditionSet& set) {
     if (result[k].activations.size() > 0) rms.push_back(result[k].rms);
   }
   if (rms.empty()) return result;
-  std::nth_element(rms.begin(), rms.begin() + long(rms.size() / 2), rms.end());
+  const double usual = median(std::move(rms));
   for (size_t k = 0; k < set.size(); ++k)
     if (!set.condition(k).forces &&
-        (result[k].activations.size() == 0 || result[k].rms > much_worse * rms[rms.size() / 2]))
+        (result[k].activations.size() == 0 || result[k].rms > much_worse * usual))
       result[k] = alone(set, k, more_starts);
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include "discrepancy/conditions/condition_set.hpp"
 #include "discrepancy/errors/error_model.hpp"
+#include "forward/base/median.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/statics/sensitivity.hpp"
 #include "inverse/shape/curvature.hpp"
@@ -111,9 +112,7 @@ double error_of_forces(const Condition& c) {
   std::vector<double> parts;
   for (const auto& [name, f] : *c.forces)
     if (f.mean > 0) parts.push_back(std::max(near_zero, f.sd / f.mean));
-  if (parts.empty()) return usual_error;
-  std::nth_element(parts.begin(), parts.begin() + long(parts.size() / 2), parts.end());
-  return parts[parts.size() / 2];
+  return parts.empty() ? usual_error : median(std::move(parts));
 }
 
 bool better(const Experiment& a, const Experiment& b) { return a.log_odds > b.log_odds; }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "forward/base/median.hpp"
 #include "forward/effects/surroundings/contact.hpp"
 
 namespace genio {
@@ -20,12 +21,6 @@ constexpr double out_of_reach = 15e-3;  // root mean square from the line at res
 constexpr double into_bone = 3e-3;      // what noise and another anatomy explain [m]
 constexpr double most_behind = 0.2;     // share of points
 constexpr double unlike = 3e-3;         // root mean square of a scan from what muscles make [m]
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
 
 /// The share of points in the model's frame that lie deeper in a bone than that [m].
 double behind(const Model& model, const std::vector<Vec3>& points, double depth) {

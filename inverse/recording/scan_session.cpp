@@ -91,12 +91,6 @@ void set_turns(Judgement& j, const ScanPose& pose, const AxesReading& reading, c
   j.sideways = Vec3(angles[0], angles[2], shift[1]);
 }
 
-Vec3 mean(const std::vector<Vec3>& points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : points) sum += p / double(points.size());
-  return sum;
-}
-
 Scan scan_of(const SessionFile& target, const std::optional<SessionFile>& palate) {
   Scan scan{surface_points(target.file), {}};
   if (scan.tongue.size() < 20)

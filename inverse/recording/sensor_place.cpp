@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/base/median.hpp"
 #include "forward/base/nearest_name.hpp"
 
 namespace genio {
@@ -115,10 +116,7 @@ double usual_distance(const ContourFile& file, const std::string& a, const std::
     if (std::isnan(way[1])) way[1] = 0;
     distances.push_back(way.norm());
   }
-  if (distances.empty()) return std::nan("");
-  std::nth_element(distances.begin(), distances.begin() + long(distances.size() / 2),
-                   distances.end());
-  return distances[distances.size() / 2];
+  return distances.empty() ? std::nan("") : median(std::move(distances));
 }
 
 Vec3 at_rest(const Model& model, const std::string& place) {

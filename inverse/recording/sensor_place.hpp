@@ -18,12 +18,15 @@ std::vector<std::pair<int, double>> sensor_place(const Model& model, const std::
 /// Its arc length behind the tip at rest [m]; of a node off the midsagittal line NaN.
 double behind_tip(const Model& model, const std::string& place);
 
+/// Scales that speakers have beside a model.
+inline constexpr std::pair any_scale{0.75, 1.3};
+
 /// What contradicts the places, empty where nothing does: two sensors whose distance, over all
 /// frames, no scale between those and no stretch of the tissue by 30 % brings to the model's; two
 /// that lie in the other order along the head; two at one place that lie apart. It names the two
 /// and places that fit. x runs back [m].
 std::string place_contradiction(const Model& model, const ContourFile& file,
-                                const std::pair<double, double>& scales = {0.75, 1.3});
+                                const std::pair<double, double>& scales = any_scale);
 
 /// Places that fit the sensors' mutual distances: sensors in the order in which they lie behind the
 /// tip, the first about 10 mm behind it, each next by its usual distance from the one before. Of

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "forward/base/median.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/sensor_place.hpp"
 #include "inverse/recording/session_marks.hpp"
@@ -49,9 +50,7 @@ bool is_the_palate(const ContourFile& target, const ContourFile& palate) {
     });
     shares.push_back(double(on) / double(contour.size()));
   }
-  if (shares.empty()) return false;
-  std::nth_element(shares.begin(), shares.begin() + long(shares.size() / 2), shares.end());
-  return shares[shares.size() / 2] > most_on_it;
+  return median(std::move(shares)) > most_on_it;
 }
 
 std::string doubtful_places(const Model& model, const ContourFile& turned,
@@ -59,8 +58,7 @@ std::string doubtful_places(const Model& model, const ContourFile& turned,
   const bool knows = by_palate && turned.frames.size() >= many_frames;
   const double scale = registration.transform.scale;
   const std::pair<double, double> scales =
-      knows ? std::pair{(1 - scale_slack) / scale, (1 + scale_slack) / scale}
-            : std::pair{0.75, 1.3};
+      knows ? std::pair{(1 - scale_slack) / scale, (1 + scale_slack) / scale} : any_scale;
   ContourFile level = turned;  // as the head is
   for (ContourFrame& frame : level.frames)
     for (ContourPoint& p : frame.points) {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "inverse/recording/base/table_text.hpp"
-#include "inverse/recording/head_places.hpp"
+#include "inverse/recording/registration/head_places.hpp"
 
 namespace genio {
 namespace {

@@ -94,7 +94,10 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
                                           optimum.residuals.places[size_t(worst)]);
   answer.message =
       test.verdict == Verdict::explained
-          ? fmt::format("misfit within noise (p = {:.2g})", test.tail)
+          ? double(r.size()) - used < 1
+                ? fmt::format("the shape passes through the {} values, too few to test the model",
+                              r.size())
+                : fmt::format("misfit within noise (p = {:.2g})", test.tail)
           : fmt::format(
                 "misfit beyond noise (p = {:.1g}), largest at the {}: {:.1f} mm; at maximum: "
                 "{}; at zero: {}",

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "forward/base/median.hpp"
 #include "inverse/recording/textgrid.hpp"
 
 namespace genio {
@@ -49,9 +50,7 @@ double half_spacing(const std::vector<ContourFrame>& frames) {
   std::sort(times.begin(), times.end());
   for (size_t k = 1; k < times.size(); ++k)
     if (times[k] > times[k - 1]) gaps.push_back(times[k] - times[k - 1]);
-  if (gaps.empty()) return 0;
-  std::nth_element(gaps.begin(), gaps.begin() + long(gaps.size() / 2), gaps.end());
-  return 0.5 * gaps[gaps.size() / 2];
+  return 0.5 * median(std::move(gaps));
 }
 
 std::vector<ContourFrame> labelled_frames(std::vector<ContourFrame> frames,

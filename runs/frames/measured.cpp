@@ -74,11 +74,7 @@ AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredO
     marks.bite_plane = read_bite_plane(o.bite_plane, options, target);
     tell(marks.bite_plane->path, marks.bite_plane->file, remark);
   }
-  marks.points = head_points_of(target,
-                                {{HeadPoint::hyoid, o.hyoid},
-                                 {HeadPoint::short_tendon, o.short_tendon},
-                                 {HeadPoint::mandible, o.jaw_shadow}},
-                                !o.ignore_marks, read);
+  marks.points = head_points_of(target, given_head_points(o), !o.ignore_marks, read);
   return align(model, std::move(target), palate, read, marks);
 }
 
@@ -135,13 +131,20 @@ Measured as_given(const Model& model, ContourFile file, const MeasuredOptions& o
   return m;
 }
 
-/// What a registration leaves open of the head's place, and what the user is told of it.
-void estimate_along(Measured& m, const HeadPosePrior& head, bool by_palate, ContourFile& file) {
+/// How the registration went, and what it leaves open of the head's place, which is estimated
+/// along.
+void tell_registration(Measured& m, const HeadPosePrior& head, ContourFile& file,
+                       const MeasuredOptions& o, const Remark& remark) {
   m.head_pose = head;
+  file.remarks.push_back(text_of(m.registration));
+  if (const std::string other = of_another(m.registration); !other.empty())
+    file.remarks.push_back(other);
   file.remarks.push_back(fmt::format(
       "the head's place is estimated along, within {:.1f} mm and {:.0f} degrees{} (--registered "
       "where it is known)",
-      1e3 * head.shift_sd, degrees(head.turn_sd), by_palate ? "" : "; --palate tells more"));
+      1e3 * head.shift_sd, degrees(head.turn_sd),
+      m.registration.by_palate ? "" : "; --palate tells more"));
+  tell(o.target, file, remark);
 }
 
 Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOptions& o,
@@ -153,12 +156,8 @@ Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOpt
                     .by_palate = !o.palate.empty(),
                     .bite_plane = a.bite_plane,
                     .head_points = a.head_points};
-  a.file.remarks.push_back(text_of(m.registration));
-  if (const std::string other = of_another(m.registration); !other.empty())
-    a.file.remarks.push_back(other);
-  estimate_along(m, {a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd}, !o.palate.empty(),
-                 a.file);
-  tell(o.target, a.file, remark);
+  tell_registration(m, {a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd}, a.file, o,
+                    remark);
   for (const ContourFrame& frame : a.file.frames)
     m.frames.push_back(registered(model, frame, a.registration.transform));
   return m;
@@ -173,11 +172,7 @@ Measured as_scan(const Model& model, SessionFile target, const MeasuredOptions& 
                     .units = a.file.units,
                     .axes = a.reading.text(Content::sensors),
                     .by_palate = palate.has_value()};
-  a.file.remarks.push_back(text_of(m.registration));
-  if (const std::string other = of_another(m.registration); !other.empty())
-    a.file.remarks.push_back(other);
-  estimate_along(m, {a.registration.shift_sd, a.registration.tilt_sd}, palate.has_value(), a.file);
-  tell(o.target, a.file, remark);
+  tell_registration(m, {a.registration.shift_sd, a.registration.tilt_sd}, a.file, o, remark);
   m.frames = std::move(a.file.frames);
   return m;
 }
@@ -192,6 +187,12 @@ void heed(Measured& m, const MeasuredOptions& o, const Remark& remark) {
 }
 
 }  // namespace
+
+std::map<HeadPoint, std::string> given_head_points(const MeasuredOptions& o) {
+  return {{HeadPoint::hyoid, o.hyoid},
+          {HeadPoint::short_tendon, o.short_tendon},
+          {HeadPoint::mandible, o.jaw_shadow}};
+}
 
 RegistrationFailed::RegistrationFailed(const std::string& path, RegistrationRecord what)
     : std::runtime_error(fmt::format("{}: cannot be laid beside the model: {} "

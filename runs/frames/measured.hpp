@@ -2,6 +2,7 @@
 // Measured contours, read as the user describes them.
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,9 @@ struct MeasuredOptions {
   bool force = false;         ///< answer also on a registration that fails its test
   double noise_mm = 0;
 };
+
+/// The points of the head that the options give, "X,Y" each; empty texts where they do not.
+std::map<HeadPoint, std::string> given_head_points(const MeasuredOptions& o);
 
 struct Measured {
   /// Those asked for, in the model's frame; times are NaN where the file gives none.

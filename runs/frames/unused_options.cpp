@@ -22,13 +22,6 @@ void refuse_unless_sensors(const MeasuredOptions& o, const FormatTraits& format)
   if (!o.bite_plane_sensors.empty()) refuse("--bite-plane-sensors", why);
 }
 
-/// Options that give points of the head, and what they say.
-std::vector<std::pair<std::string, std::string>> points_of(const MeasuredOptions& o) {
-  return {{option_of(HeadPoint::hyoid), o.hyoid},
-          {option_of(HeadPoint::short_tendon), o.short_tendon},
-          {option_of(HeadPoint::mandible), o.jaw_shadow}};
-}
-
 void refuse_of_scan(const MeasuredOptions& o, const FormatTraits& format) {
   if (format.content != Content::surface) return;
   const std::string why = fmt::format("{} is a scan, whose axes --axes tells", o.target);
@@ -36,8 +29,8 @@ void refuse_of_scan(const MeasuredOptions& o, const FormatTraits& format) {
   if (!o.read.up.empty()) refuse("--y-grows", why);
   const std::string place = o.target + " is a scan, which its palate's surface or its shape places";
   if (!o.bite_plane.empty()) refuse("--bite-plane", place);
-  for (const auto& [option, value] : points_of(o))
-    if (!value.empty()) refuse(option, place);
+  for (const auto& [point, text] : given_head_points(o))
+    if (!text.empty()) refuse(option_of(point), place);
   if (!o.read.axes.empty() && o.registered)
     refuse("--axes", "--registered says that the file is in the model's frame already");
 }
@@ -52,8 +45,8 @@ void refuse_axes(const MeasuredOptions& o, const FormatTraits& format) {
   if (!o.read.axes.empty()) refuse("--axes", why);
   if (!o.palate.empty()) refuse("--palate", why + " already");
   if (!o.bite_plane.empty()) refuse("--bite-plane", why + " already");
-  for (const auto& [option, text] : points_of(o))
-    if (!text.empty()) refuse(option, why + " already");
+  for (const auto& [point, text] : given_head_points(o))
+    if (!text.empty()) refuse(option_of(point), why + " already");
 }
 
 }  // namespace
@@ -68,9 +61,9 @@ void refuse_unused(const MeasuredOptions& o, const FormatTraits& format, bool re
     refuse("--bite-plane-sensors", "they are sensors of the recording that --bite-plane gives");
   if (!o.bite_plane.empty() && o.registered)
     refuse("--bite-plane", "--registered says that the file is in the model's frame already");
-  for (const auto& [option, text] : points_of(o))
+  for (const auto& [point, text] : given_head_points(o))
     if (!text.empty() && o.registered)
-      refuse(option, "--registered says that the file is in the model's frame already");
+      refuse(option_of(point), "--registered says that the file is in the model's frame already");
   if (!o.palate.empty() && o.registered)
     refuse("--palate", "--registered says that the file is in the model's frame already");
   if (o.read.mm_per_px > 0 && !o.read.units.empty() && o.read.units != "px")

@@ -71,21 +71,23 @@ Json run_recordings(const BenchOptions& o, const Progress& progress) {
   fs::create_directories(folder);
   InferWorkspace ws(model);
   std::mt19937 random(o.seed);
-  constexpr Device devices[] = {Device::aaa, Device::edgetrak, Device::articulograph,
-                                Device::getcontours, Device::table};
+  constexpr std::pair<Device, const char*> devices[] = {{Device::aaa, "aaa"},
+                                                        {Device::edgetrak, "edgetrak"},
+                                                        {Device::articulograph, "articulograph"},
+                                                        {Device::getcontours, "getcontours"},
+                                                        {Device::table, "table"}};
   int good_refused = 0, good_explained = 0, spoiled = 0, spoiled_explained = 0, unnamed = 0;
   Json refusals = Json::array(), missed = Json::array();
   std::map<std::string, CalibrationCount> truths;
-  constexpr const char* device_names[] = {"aaa", "edgetrak", "articulograph", "getcontours",
-                                          "table"};
   std::map<std::string, std::array<int, 3>> kinds;  // cases, explained, unnamed
   for (int k = 0; k < count; ++k) {
-    const SyntheticSession session = draw_session(model, devices[k % 5], random);
+    const auto& device = devices[k % 5];
+    const SyntheticSession session = draw_session(model, device.first, random);
     const Outcome good = invert(model, written(session), folder, ws);
     good_refused += good.refused, good_explained += good.explained;
     if (good.answer.status == InferStatus::converged)
-      truths[device_names[k % 5]].add(good.answer.muscles, session.forces.front(),
-                                      good.answer.verdict, good.answer.rms);
+      truths[device.second].add(good.answer.muscles, session.forces.front(), good.answer.verdict,
+                                good.answer.rms);
     if (good.refused) refusals.push_back({{"session", k}, {"said", good.said}});
     const Spoil& spoil = spoils()[size_t(k / 5) % spoils().size()];
     SyntheticSession bad = session;

@@ -10,6 +10,7 @@
 #include "bench/problems/clock.hpp"
 #include "bench/problems/random_muscles.hpp"
 #include "bench/problems/truth.hpp"
+#include "bench/truths/calibration_count.hpp"
 #include "forward/model/build_model.hpp"
 #include "inverse/search/multi_start.hpp"
 #include "inverse/target/comparison.hpp"
@@ -23,18 +24,10 @@ constexpr double largest = 0.3;     // of a muscle's maximum
 constexpr int points = 40;          // of the midsagittal line
 constexpr double identified = 1.0;  // bits over the prior that make a muscle identified
 
-const std::map<std::string, std::vector<std::string>> groups = {
-    {"genioglossus", {"GGP", "GGM", "GGA"}},
-    {"other extrinsic", {"STY", "HG"}},
-    {"intrinsic", {"VERT", "TRANS", "IL", "SL"}},
-    {"floor", {"GH", "MH"}}};
-
 struct Count {
   int inside = 0, of = 0;
   Json json() const { return of == 0 ? Json() : Json(double(inside) / of); }
 };
-
-double middle(const std::vector<double>& v) { return v.empty() ? 0 : median(v); }
 
 }  // namespace
 
@@ -82,17 +75,15 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
       const double force = z[Eigen::Index(i)] * c.maximum;
       const bool inside = force >= c.low - 1e-9 && force <= c.high + 1e-9;
       ++all.of, all.inside += inside;
-      for (const auto& [group, members] : groups)
-        if (std::find(members.begin(), members.end(), c.name) != members.end()) {
-          ++covered[group].of, covered[group].inside += inside;
-          if (force > 0) ++covered_active[group].of, covered_active[group].inside += inside;
-        }
+      const std::string group = muscle_group(c.name);
+      ++covered[group].of, covered[group].inside += inside;
+      if (force > 0) ++covered_active[group].of, covered_active[group].inside += inside;
       if (c.information_bits > identified) error.push_back(std::abs(c.best - force) / c.maximum);
     }
     if (progress && (k + 1) % 10 == 0)
       progress(fmt::format("{} of {}: median RMS {:.2f} mm, coverage {:.1f} %, {:.2f} s", k + 1,
-                           count, 1e3 * middle(rms), 100.0 * all.inside / std::max(1, all.of),
-                           middle(wall)));
+                           count, 1e3 * median(rms), 100.0 * all.inside / std::max(1, all.of),
+                           median(wall)));
   }
   Json by_group, active_by_group;
   for (const auto& [group, c] : covered) by_group[group] = c.json();
@@ -100,14 +91,14 @@ Json blind(const ModelDescription& description, int count, const Progress& progr
   return {{"cases", count},
           {"converged_fraction", converged.json()},
           {"explained_fraction", verdict.json()},
-          {"rms_mm_median", 1e3 * middle(rms)},
+          {"rms_mm_median", 1e3 * median(rms)},
           {"rms_mm_max", rms.empty() ? 0 : 1e3 * *std::max_element(rms.begin(), rms.end())},
           {"coverage90", all.json()},
           {"coverage90_by_group", by_group},
           {"coverage90_of_active_by_group", active_by_group},
-          {"force_error_median", middle(error)},
+          {"force_error_median", median(error)},
           {"identified_estimates", error.size()},
-          {"wall_s_median", middle(wall)},
+          {"wall_s_median", median(wall)},
           {"failures", failures}};
 }
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 #include <random>
 
 #include "bench/problems/clock.hpp"
+#include "bench/problems/random_muscles.hpp"
 #include "bench/truths/calibration_count.hpp"
 #include "bench/truths/erring_truth.hpp"
 #include "bench/truths/measured_shape.hpp"
@@ -66,15 +66,10 @@ struct Case {
 
 Case drawn(const std::vector<Unknown>& commands, const Regime& regime, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<size_t> order(commands.size());
-  std::iota(order.begin(), order.end(), size_t(0));
-  std::shuffle(order.begin(), order.end(), random);
-  const int count =
-      regime.fewest + int(uniform(random) * (regime.most - regime.fewest + 1) * (1 - 1e-9));
   Case c;
-  for (int k = 0; k < count; ++k) {
+  for (int i : some_muscles(commands.size(), random, uniform, regime.fewest, regime.most)) {
     const double part = regime.least + (regime.largest - regime.least) * uniform(random);
-    c.forces[commands[order[size_t(k)]].name] = part * commands[order[size_t(k)]].scale;
+    c.forces[commands[size_t(i)].name] = part * commands[size_t(i)].scale;
   }
   c.noise = device_noises[size_t(uniform(random) * device_noises.size())];
   c.seed = unsigned(random());
@@ -140,7 +135,7 @@ Json run_calibration(const BenchOptions& o, const Progress& progress) {
           {"by_measurement", table(run.by_measurement)},
           {"by_fault", table(run.by_fault)},
           {"truths_without_equilibrium", run.without_equilibrium},
-          {"wall_s_median", run.wall.empty() ? 0 : median(run.wall)}};
+          {"wall_s_median", median(run.wall)}};
 }
 
 std::string share_text(const Json& share) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/base/median.hpp"
+
 namespace genio {
 namespace {
 
@@ -23,9 +25,7 @@ double gap(const ContourPoint& a, const ContourPoint& b) {
 std::vector<Piece> pieces_of(const std::vector<ContourPoint>& points) {
   std::vector<double> gaps;
   for (size_t k = 1; k < points.size(); ++k) gaps.push_back(gap(points[k - 1], points[k]));
-  std::vector<double> sorted = gaps;
-  std::nth_element(sorted.begin(), sorted.begin() + long(sorted.size() / 2), sorted.end());
-  const double jump = std::max(least_jump, times_spacing * sorted[sorted.size() / 2]);
+  const double jump = std::max(least_jump, times_spacing * median(gaps));
   std::vector<Piece> pieces(1, {points.front()});
   for (size_t k = 1; k < points.size(); ++k) {
     if (gaps[k - 1] > jump) pieces.emplace_back();
@@ -79,15 +79,18 @@ size_t keep_the_curve(ContourFrame& frame, const std::string& path) {
 
 ContourFile with_one_curve_a_frame(ContourFile file, const std::string& path) {
   size_t out = 0, frames = 0;
+  int first = 0;
   for (ContourFrame& frame : file.frames)
     if (const size_t here = keep_the_curve(frame, path)) {
+      if (out == 0) first = frame.number;
       out += here, ++frames;
       frame.note += fmt::format("{}{} points far from their neighbours left out",
                                 frame.note.empty() ? "" : "; ", here);
     }
   if (out > 0)
     file.remarks.push_back(fmt::format(
-        "{} points of {} frames lie far from their neighbours and are left out", out, frames));
+        "points far from their neighbours are left out: {} in {} frames, the first in frame {}",
+        out, frames, first));
   return file;
 }
 

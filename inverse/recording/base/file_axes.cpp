@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "forward/base/median.hpp"
+
 namespace genio {
 namespace {
 
@@ -25,24 +27,19 @@ double typical_extent(const ContourFile& file) {
     if (low[1] > high[1]) low[1] = high[1] = 0;
     extents.push_back((high - low).norm());
   }
-  if (extents.empty()) return 0;
-  std::nth_element(extents.begin(), extents.begin() + long(extents.size() / 2), extents.end());
-  return extents[extents.size() / 2];
+  return median(std::move(extents));
 }
 
 /// The point that lies far from all others of its frame, where one does: "frame 3, point 7: (...)".
 std::string stray_point(const ContourFile& file) {
   for (const ContourFrame& frame : file.frames) {
     if (frame.points.size() < 5) continue;
-    Vec3 middle;
-    for (int i = 0; i < 3; ++i) {
-      std::vector<double> along;
-      for (const ContourPoint& p : frame.points) along.push_back(p.position[i]);
-      std::nth_element(along.begin(), along.begin() + long(along.size() / 2), along.end());
-      middle[i] = along[along.size() / 2];
-    }
+    std::vector<double> x, z;
+    for (const ContourPoint& p : frame.points)
+      x.push_back(p.position[0]), z.push_back(p.position[2]);
+    const double middle_x = median(std::move(x)), middle_z = median(std::move(z));
     const auto off = [&](const ContourPoint& p) {
-      return std::hypot(p.position[0] - middle[0], p.position[2] - middle[2]);
+      return std::hypot(p.position[0] - middle_x, p.position[2] - middle_z);
     };
     std::vector<double> ways;
     for (const ContourPoint& p : frame.points) ways.push_back(off(p));

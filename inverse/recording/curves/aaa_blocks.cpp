@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "forward/base/median.hpp"
 #include "inverse/recording/base/confidence.hpp"
 #include "inverse/recording/base/named_curve.hpp"
 #include "inverse/recording/curves/aaa_row.hpp"
@@ -207,12 +208,11 @@ void widen(std::vector<std::vector<AaaKnot>>& rows, double least) {
     for (const AaaKnot& knot : row)
       if (knot.confidence && *knot.confidence >= least) seen.push_back(*knot.confidence);
   if (seen.empty()) return;
-  const auto middle = seen.begin() + long(seen.size() / 2);
-  std::nth_element(seen.begin(), middle, seen.end());
+  const double usual = median(std::move(seen));
   for (auto& row : rows)
     for (AaaKnot& knot : row)
       if (knot.confidence && *knot.confidence >= least)
-        knot.widening = widening_by_confidence(*knot.confidence, *middle);
+        knot.widening = widening_by_confidence(*knot.confidence, usual);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/base/median.hpp"
 #include "inverse/recording/base/file_axes.hpp"
 
 namespace genio {
@@ -20,9 +21,7 @@ double widest_gap(const std::vector<AaaKnot>& knots) {
   std::vector<double> gaps;
   for (size_t k = 1; k < knots.size(); ++k) gaps.push_back(distance(knots[k - 1], knots[k]));
   if (gaps.empty()) return narrow_gap;
-  const auto middle = gaps.begin() + long(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return std::clamp(usual_gaps * *middle, narrow_gap, wide_gap);
+  return std::clamp(usual_gaps * median(std::move(gaps)), narrow_gap, wide_gap);
 }
 
 /// The longest run of knots without a wide gap: the outermost knots are often tracker noise.

@@ -24,8 +24,10 @@ Columns columns_of(const std::vector<std::string>& header, const TableLines& lin
   for (size_t c = 0; c < header.size(); ++c) {
     const std::string name = trimmed(header[c]);
     if (std::find(known_columns.begin(), known_columns.end(), name) == known_columns.end())
-      lines.fail(fmt::format("unknown column {}; did you mean {}?", in_quotes(name),
-                             nearest_name(name, known_columns)));
+      lines.fail(fmt::format(
+          "unknown column {}; did you mean {}? Of a table with other titles say which column is "
+          "which: --columns frame={},x=...,y=...",
+          in_quotes(name), nearest_name(name, known_columns), trimmed(header[0])));
     if (!column.emplace(name, c).second)
       lines.fail(fmt::format("column {} stands twice", in_quotes(name)));
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "forward/base/median.hpp"
 #include "inverse/recording/base/file_axes.hpp"
 #include "inverse/recording/base/table_text.hpp"
 
@@ -131,9 +132,7 @@ size_t drop_padding(ContourFrame& frame, const TableLines& lines) {
     steps.push_back(std::hypot(step[0], step[2]));
   }
   if (steps.empty()) return padded;
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + long(sorted.size() / 2), sorted.end());
-  const double usual = sorted[sorted.size() / 2];
+  const double usual = median(steps);
   for (size_t k = 0; k < points.size(); ++k) {
     const double before = k > 0 ? steps[k - 1] : 0, after = k < steps.size() ? steps[k] : 0;
     if (is_corner(points[k]) && std::max(before, after) > far_off * usual)

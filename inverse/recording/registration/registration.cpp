@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "forward/base/median.hpp"
+#include "forward/base/thin.hpp"
 #include "inverse/recording/registration/bent_lines.hpp"
 #include "inverse/recording/registration/registration_problem.hpp"
-#include "inverse/recording/registration/thin.hpp"
 
 namespace genio {
 namespace {
@@ -75,8 +76,7 @@ Registration best_of(const TongueReach& reach, const RegistrationProblem& proble
   std::vector<double> off;
   for (size_t k = 0; k < problem.contours.size(); ++k)
     off.push_back(rms_distance(result.transform, problem.contours[k], best.lines[k]));
-  std::nth_element(off.begin(), off.begin() + long(off.size() / 2), off.end());
-  if (!off.empty()) result.off_reach = off[off.size() / 2];
+  result.off_reach = median(std::move(off));
   // Bent lines would follow a wrong size: it is looked for about those at rest.
   RegistrationProblem of_any_size = problem;
   of_any_size.free = true;

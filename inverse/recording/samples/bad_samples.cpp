@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "forward/base/median.hpp"
+
 namespace genio {
 namespace {
 
@@ -15,12 +17,6 @@ constexpr size_t frozen_run = 5;   // samples at least
 constexpr double others_move = 2;  // [mm] meanwhile, at least
 constexpr double jump = 15;        // [mm] from one sample to the next
 constexpr double jump_factor = 8;  // over the others' steps and over the sensor's usual one
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
 
 double millimetres(const SensorTable& t) {
   return t.axes.units == "um" ? 1e-3 : t.axes.units == "cm" ? 10 : 1;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "forward/base/thin.hpp"
 #include "forward/model/model.hpp"
 #include "inverse/recording/registration/postures.hpp"
-#include "inverse/recording/registration/thin.hpp"
 #include "inverse/recording/scan_pose/scan_fit.hpp"
 
 namespace genio {
@@ -20,12 +20,6 @@ constexpr double same_turn = 5 * std::numbers::pi / 180, same_way = 3e-3;
 constexpr int rough_steps = 15, most_steps = 60;
 constexpr size_t refined = 8;    // rough optima that are followed to their end
 constexpr double hopeless = 40;  // cost above the best of one that nobody will ask for
-
-Vec3 mean(const std::vector<Vec3>& points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : points) sum += p;
-  return sum / std::max<double>(1, double(points.size()));
-}
 
 /// Where the middle of a scan may lie: of the tongue's whole surface, and of its upper half.
 std::vector<Vec3> middles_of(const SurfaceReach& reach) {
@@ -85,6 +79,12 @@ ScanRegistration registration_of(const ScanProblem& problem, const ScanFit& fit)
 }
 
 }  // namespace
+
+Vec3 mean(const std::vector<Vec3>& points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : points) sum += p;
+  return sum / std::max<double>(1, double(points.size()));
+}
 
 SurfaceReach surface_reach_of(const Model& model) {
   SurfaceReach reach{facets(model.surface), model.rest, {}};

@@ -54,6 +54,9 @@ std::vector<ScanRegistration> register_scan(const Model& model, const SurfaceRea
 /// way [m].
 bool near_place(const ScanPose& a, const ScanPose& b, const Vec3& middle, double turn, double way);
 
+/// The origin where there are none.
+Vec3 mean(const std::vector<Vec3>& points);
+
 /// Root mean square distance of points from the surface in a shape [m].
 double rms_from_surface(const std::vector<Facet>& facets, const Positions& shape,
                         const std::vector<Vec3>& points);

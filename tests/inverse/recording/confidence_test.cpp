@@ -5,7 +5,7 @@
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/target/comparison.hpp"
 #include "tests/forward/small_model.hpp"
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

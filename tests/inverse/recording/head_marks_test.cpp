@@ -9,7 +9,7 @@
 
 #include "bench/experiments/recordings/synthetic_session.hpp"
 #include "forward/model/build_model.hpp"
-#include "inverse/recording/head_places.hpp"
+#include "inverse/recording/registration/head_places.hpp"
 #include "inverse/recording/session.hpp"
 #include "tests/forward/small_model.hpp"
 

@@ -1,7 +1,7 @@
 // Files that once failed, read in place; skipped where they are absent.
 
 #include "tests/forward/small_model.hpp"
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

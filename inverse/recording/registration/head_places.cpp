@@ -1,7 +1,9 @@
-#include "inverse/recording/head_places.hpp"
+#include "inverse/recording/registration/head_places.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "forward/base/median.hpp"
 
 namespace genio {
 namespace {
@@ -46,12 +48,6 @@ std::optional<Vec2> shadow_of(const Model& model) {
                            [](const Vec2& a, const Vec2& b) { return a[0] - a[1] < b[0] - b[1]; });
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + long(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 double sd_of(HeadPoint point) {
@@ -94,11 +90,11 @@ Middle middle_of(const std::vector<Vec2>& points) {
   constexpr double to_sd = 1.4826;  // of the median deviation of a Gaussian
   std::vector<double> x, y;
   for (const Vec2& p : points) x.push_back(p[0]), y.push_back(p[1]);
-  Middle m{{median_of(x), median_of(y)}};
+  Middle m{{median(x), median(y)}};
   if (points.size() < 3) return m;
   for (double& v : x) v = std::abs(v - m.point[0]);
   for (double& v : y) v = std::abs(v - m.point[1]);
-  m.spread = to_sd * std::hypot(median_of(x), median_of(y)) / std::sqrt(2);
+  m.spread = to_sd * std::hypot(median(x), median(y)) / std::sqrt(2);
   return m;
 }
 

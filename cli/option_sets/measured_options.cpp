@@ -1,4 +1,4 @@
-#include "cli/measured_options.hpp"
+#include "cli/option_sets/measured_options.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +19,7 @@ std::string usual_noises() {
 }  // namespace
 
 void add_measured_options(Options& options, MeasuredOptions& o) {
+  const std::vector<std::string> units = {"mm", "cm", "m", "um", "px"};
   options.add("--target", o.target, "Contour file");
   std::vector<std::string> formats = {"auto"};
   for (const ContourFormat& format : contour_formats()) formats.push_back(format.traits.name);
@@ -29,7 +30,7 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--spline", o.read.spline, "The spline, or the body parts, to take of several");
   options.add("--points", o.read.points, "A-B: the landmarks of a .pts file that are the tongue's");
   options.add("--units", o.read.units, "mm, cm, m, um or px, where the file does not say",
-              {.suggested = {"mm", "cm", "m", "um", "px"}});
+              {.suggested = units});
   options.add("--mm-per-px", o.read.mm_per_px, "Size of a pixel", {.positive = true});
   options.add("--facing", o.read.facing, "Where the face looks in the file: left or right",
               {.suggested = {"left", "right"}});
@@ -48,7 +49,7 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
               {.suggested = formats, .only_with = {"--palate"}});
   options.add("--palate-units", o.palate_units,
               "Its units, where they are others than the target's",
-              {.suggested = {"mm", "cm", "m", "um", "px"}, .only_with = {"--palate"}});
+              {.suggested = units, .only_with = {"--palate"}});
   options.add("--palate-spline", o.palate_spline, "The spline to take there, of several",
               {.only_with = {"--palate"}});
   options.add("--palate-sensor", o.palate_sensor, "EMA: the sensor swept along the palate there",

@@ -2,7 +2,7 @@
 
 #include "inverse/recording/base/table_text.hpp"
 
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

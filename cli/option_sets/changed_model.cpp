@@ -1,4 +1,4 @@
-#include "cli/changed_model.hpp"
+#include "cli/option_sets/changed_model.hpp"
 
 #include <fmt/format.h>
 

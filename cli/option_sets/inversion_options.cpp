@@ -1,6 +1,6 @@
-#include "cli/inversion_options.hpp"
+#include "cli/option_sets/inversion_options.hpp"
 
-#include "cli/measured_options.hpp"
+#include "cli/option_sets/measured_options.hpp"
 #include "cli/support.hpp"
 
 namespace genio::cli {

@@ -2,7 +2,7 @@
 
 #include "inverse/recording/binary/pickled_text.hpp"
 #include "inverse/recording/contour_file.hpp"
-#include "tests/inverse/recording/pandas_fixture.hpp"
+#include "tests/inverse/recording/formats/pandas_fixture.hpp"
 
 namespace genio {
 namespace {

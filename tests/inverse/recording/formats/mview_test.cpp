@@ -1,7 +1,7 @@
 // MVIEW's MATLAB files give their sensors, times and labels in both versions, and broken ones a
 // reason.
 
-#include "tests/inverse/recording/mat_fixture.hpp"
+#include "tests/inverse/recording/formats/mat_fixture.hpp"
 
 namespace genio {
 namespace {

@@ -1,7 +1,7 @@
 // Every spline format gives back the contour that was written in it, and says what it took for
 // granted.
 
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

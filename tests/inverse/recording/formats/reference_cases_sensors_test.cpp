@@ -1,7 +1,7 @@
 // Recordings of sensors as people have them, read in place.
 
 #include "tests/forward/small_model.hpp"
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

@@ -2,7 +2,7 @@
 // leave no doubt; else the message says what it is.
 
 #include "inverse/recording/format_list.hpp"
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

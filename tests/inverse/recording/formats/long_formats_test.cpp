@@ -1,6 +1,6 @@
 // Long tables, landmarks and tracks: one frame is one frame, and what is left out is said.
 
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

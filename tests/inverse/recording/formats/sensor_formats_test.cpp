@@ -2,7 +2,7 @@
 
 #include "forward/geometry/triangle_surface.hpp"
 #include "tests/forward/small_model.hpp"
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 namespace {

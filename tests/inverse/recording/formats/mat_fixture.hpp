@@ -3,7 +3,7 @@
 
 #include <matio.h>
 
-#include "tests/inverse/recording/formats_fixture.hpp"
+#include "tests/inverse/recording/formats/formats_fixture.hpp"
 
 namespace genio {
 
