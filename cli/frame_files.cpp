@@ -1,8 +1,9 @@
 #include "cli/frame_files.hpp"
 
 #include "forward/base/text_file.hpp"
-#include "report/answer_report.hpp"
-#include "report/motion_report.hpp"
+#include "report/answers/answer_report.hpp"
+#include "report/answers/answer_table.hpp"
+#include "report/answers/motion_report.hpp"
 #include "runs/results/answer_record.hpp"
 
 namespace genio::cli {

@@ -9,7 +9,7 @@
 #include "cli/result_json.hpp"
 #include "forward/base/elapsed.hpp"
 #include "forward/motion/dynamics.hpp"
-#include "report/motion_report.hpp"
+#include "report/answers/motion_report.hpp"
 #include "runs/process/progress_line.hpp"
 
 namespace genio::cli {

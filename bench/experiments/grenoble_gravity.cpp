@@ -9,7 +9,7 @@
 #include "discrepancy/contest/discover.hpp"
 #include "forward/anatomy/import_grenoble.hpp"
 #include "forward/model/build_model.hpp"
-#include "report/discovery_report.hpp"
+#include "report/discovery/discovery_report.hpp"
 
 namespace genio::bench {
 namespace {

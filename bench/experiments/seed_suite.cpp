@@ -14,8 +14,8 @@
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
-#include "report/shape_picture.hpp"
-#include "report/svg.hpp"
+#include "report/pictures/shape_picture.hpp"
+#include "report/pictures/svg.hpp"
 
 namespace genio::bench {
 namespace {

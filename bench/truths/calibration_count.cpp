@@ -1,6 +1,7 @@
 #include "bench/truths/calibration_count.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/problems/clock.hpp"
 #include "forward/tissue/fibres.hpp"
@@ -36,8 +37,18 @@ void CalibrationCount::add(const std::vector<Estimate>& muscles,
     const std::string group = muscle_group(both);
     (force > 0 ? active_ : resting_).add(holds);
     (force > 0 ? active_by_group_ : resting_by_group_)[group].add(holds);
+    (force > 0 ? acts_of_active_ : acts_of_resting_) += e.acts;
     if (force > 0) width_ += (e.high - e.low) / e.maximum;
+    if (!std::isfinite(e.acts)) continue;
+    Bin& bin = bins_[std::min(bins_.size() - 1, size_t(e.acts * double(bins_.size())))];
+    ++bin.count, bin.acting += force > 0, bin.told += e.acts;
   }
+}
+
+double CalibrationCount::calibration_error() const {
+  double off = 0, all = 0;
+  for (const Bin& bin : bins_) off += std::abs(bin.told - bin.acting), all += bin.count;
+  return off / all;
 }
 
 nlohmann::json CalibrationCount::json() const {
@@ -47,16 +58,21 @@ nlohmann::json CalibrationCount::json() const {
   const auto part = [&](int count) {
     return answered_ == 0 ? nlohmann::json() : nlohmann::json(double(count) / answered_);
   };
-  return {
-      {"targets", targets_},
-      {"failed", targets_ - answered_},
-      {"explained", part(explained_)},
-      {"rms_mm_median", rms_.empty() ? nlohmann::json() : nlohmann::json(1e3 * median(rms_))},
-      {"active", active_.json()},
-      {"resting", resting_.json()},
-      {"width_of_active", active_.of == 0 ? nlohmann::json() : nlohmann::json(width_ / active_.of)},
-      {"active_by_group", active},
-      {"resting_by_group", resting}};
+  const auto mean = [](double sum, const Share& share) {
+    return share.of == 0 ? nlohmann::json() : nlohmann::json(sum / share.of);
+  };
+  return {{"targets", targets_},
+          {"failed", targets_ - answered_},
+          {"explained", part(explained_)},
+          {"rms_mm_median", rms_.empty() ? nlohmann::json() : nlohmann::json(1e3 * median(rms_))},
+          {"active", active_.json()},
+          {"resting", resting_.json()},
+          {"width_of_active", mean(width_, active_)},
+          {"acts_of_active", mean(acts_of_active_, active_)},
+          {"acts_of_resting", mean(acts_of_resting_, resting_)},
+          {"calibration_error", calibration_error()},
+          {"active_by_group", active},
+          {"resting_by_group", resting}};
 }
 
 }  // namespace genio::bench

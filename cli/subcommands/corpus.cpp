@@ -11,7 +11,7 @@
 #include "cli/frame_files.hpp"
 #include "cli/option_sets/inversion_options.hpp"
 #include "cli/support.hpp"
-#include "report/corpus_report.hpp"
+#include "report/answers/corpus_report.hpp"
 #include "runs/corpus/slurm.hpp"
 #include "runs/process/progress_line.hpp"
 #include "runs/process/workers.hpp"

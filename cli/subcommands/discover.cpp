@@ -8,10 +8,10 @@
 #include "discrepancy/contest/discover.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/model/build_model.hpp"
-#include "report/discovery_page.hpp"
-#include "report/discovery_pictures.hpp"
-#include "report/discovery_report.hpp"
-#include "report/svg.hpp"
+#include "report/discovery/discovery_page.hpp"
+#include "report/discovery/discovery_pictures.hpp"
+#include "report/discovery/discovery_report.hpp"
+#include "report/pictures/svg.hpp"
 
 namespace genio::cli {
 namespace {

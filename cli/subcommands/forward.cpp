@@ -16,7 +16,7 @@
 #include "forward/base/text_file.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
-#include "report/motion_report.hpp"
+#include "report/answers/motion_report.hpp"
 
 namespace genio::cli {
 namespace {

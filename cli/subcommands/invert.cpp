@@ -9,7 +9,7 @@
 #include "cli/option_sets/inversion_options.hpp"
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
-#include "report/run_summary.hpp"
+#include "report/answers/run_summary.hpp"
 #include "runs/frames/frame_by_frame.hpp"
 #include "runs/frames/inversion.hpp"
 #include "runs/process/progress_line.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "report/run_summary.hpp"
+#include "report/answers/run_summary.hpp"
 #include "runs/results/merged_runs.hpp"
 
 namespace genio::cli {

@@ -11,7 +11,6 @@
 namespace genio {
 namespace {
 
-constexpr int warming = 100;     // samples left out
 constexpr double inside = 1e-9;  // of the box: where the first trajectory starts off a bound
 constexpr int most_bounces = 2000;
 constexpr double pressing = 30;  // slope at a bound, in units of the Gaussian's own
@@ -44,7 +43,7 @@ struct Arc {
 };
 
 /// Hamiltonian Monte Carlo on all of the unknowns.
-Matrix bouncing(const BoxGaussian& g, int count, std::mt19937_64& random) {
+Matrix bouncing(const BoxGaussian& g, int count, int warming, std::mt19937_64& random) {
   const Eigen::Index n = g.mode.size();
   const Eigen::LLT<Matrix> factor(g.hessian);
   if (factor.info() != Eigen::Success) throw std::invalid_argument("H is not positive definite");
@@ -100,7 +99,7 @@ int pressed(const BoxGaussian& g, Eigen::Index i) {
   return 0;
 }
 
-Matrix sample(const BoxGaussian& g, int count) {
+Matrix sample(const BoxGaussian& g, int count, int warming) {
   std::mt19937_64 random(20140601);
   // Against a bound that presses hard a trajectory would bounce for ever. There the density is an
   // exponential too narrow for the others to notice.
@@ -121,7 +120,7 @@ Matrix sample(const BoxGaussian& g, int count) {
   if (soft.empty()) return samples;
   samples(soft, Eigen::all) =
       bouncing({g.mode(soft), g.slope(soft), g.hessian(soft, soft), g.lower(soft), g.upper(soft)},
-               count, random);
+               count, warming, random);
   return samples;
 }
 

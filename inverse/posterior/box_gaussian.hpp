@@ -26,8 +26,8 @@ int pressed(const BoxGaussian& density, Eigen::Index i);
 
 /// Draws `count` samples, a column each, by exact Hamiltonian Monte Carlo (Pakman & Paninski 2014,
 /// J. Comput. Graph. Stat. 23): trajectories of the whitened Gaussian are circles that bounce off
-/// the bounds. Always the same samples for the same arguments. Throws std::invalid_argument where H
-/// is not positive definite.
-Matrix sample(const BoxGaussian& density, int count);
+/// the bounds. Always the same samples for the same arguments; the first `warming` are left out.
+/// Throws std::invalid_argument where H is not positive definite.
+Matrix sample(const BoxGaussian& density, int count, int warming = 100);
 
 }  // namespace genio

@@ -1,6 +1,7 @@
 #pragma once
 // What is said of an unknown, and of a fit.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,26 @@ struct Estimate {
   double best = 0, maximum = 0;
   std::string unit = "N";
   Unknown::Kind kind = Unknown::Kind::muscle;
-  double sd = 0;                ///< of the posterior
-  double low = 0, high = 0;     ///< 90 % interval; one-sided where the force is at a bound
+  /// Probability that it acts at all; NaN where the prior knows no rest, and of what is no muscle.
+  double acts = std::numeric_limits<double>::quiet_NaN();
+  /// Of the posterior; NaN: not told.
+  double median = std::numeric_limits<double>::quiet_NaN(), mean = median;
+  double sd = 0;
+  /// 90 % interval. Of what may rest it is that of its force if it acts, and 0 unless it surely
+  /// acts. The best fit may lie outside.
+  double low = 0, high = 0;
   double information_bits = 0;  ///< binary logarithm of the prior's over the posterior's sd
   bool at_lower = false, at_upper = false, fixed = false;
   /// Where a bound presses: how much the objective (half a chi-square) would fall a unit of z
   /// beyond it, the bound's multiplier.
   double multiplier = 0;
+};
+
+/// Muscles of which at least one acts, though each alone may rest, and their sum.
+struct JointForce {
+  std::vector<std::string> names;
+  double acts = 0;           ///< probability that one of them does
+  double low = 0, high = 0;  ///< 90 % interval of their sum [N]
 };
 
 /// What trades for what without the data noticing: a direction in the unknowns, in their own units.

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "inverse/posterior/box_integral.hpp"
 #include "inverse/posterior/distributions.hpp"
@@ -14,6 +15,8 @@ namespace genio {
 namespace {
 
 constexpr double test_level = 0.01;
+constexpr double part_inside = 0.9;  // of an interval
+constexpr double surely = 0.05;      // probability of rest, below which a muscle surely acts
 
 }  // namespace
 
@@ -55,21 +58,51 @@ LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
   return result;
 }
 
-MarginalSummary summarise(Vector samples, double mode, double lower, double upper) {
-  std::sort(samples.begin(), samples.end());
-  const Eigen::Index n = samples.size(), inside = Eigen::Index(std::ceil(0.9 * double(n)));
-  Eigen::Index first = 0;
-  for (Eigen::Index i = 0; i + inside <= n; ++i)
-    if (samples[i + inside - 1] - samples[i] < samples[first + inside - 1] - samples[first])
-      first = i;
-  const double mean = samples.mean();
-  MarginalSummary s{std::sqrt((samples.array() - mean).square().mean()),
-                    std::min(mode, samples[first]), std::max(mode, samples[first + inside - 1])};
+MarginalSummary summarise(const Vector& samples, const Vector& weights, double lower,
+                          double upper) {
+  std::vector<Eigen::Index> order(size_t(samples.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index(0));
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return samples[a] < samples[b]; });
+  const double whole = weights.sum();
+  MarginalSummary s{samples.dot(weights) / whole, 0, 0, samples[order.front()],
+                    samples[order.back()]};
+  s.sd = std::sqrt((samples.array() - s.mean).square().matrix().dot(weights) / whole);
+  double below = 0;
+  for (auto i : order) {
+    s.median = samples[i];
+    if ((below += weights[i]) >= 0.5 * whole) break;
+  }
+  // The window from `first` on that holds enough.
+  double inside = 0;
+  size_t end = 0;
+  for (size_t first = 0; first < order.size(); ++first) {
+    while (end < order.size() && inside < part_inside * whole) inside += weights[order[end++]];
+    if (inside < part_inside * whole) break;
+    const double low = samples[order[first]], high = samples[order[end - 1]];
+    if (high - low < s.high - s.low) s.low = low, s.high = high;
+    inside -= weights[order[first]];
+  }
   // Where the density does not fall towards a bound, the interval reaches it.
   const double near = 0.05 * (s.high - s.low);
   if (s.low - lower < near) s.low = lower;
   if (upper - s.high < near) s.high = upper;
   return s;
+}
+
+MarginalSummary summarise(const Vector& samples, double lower, double upper) {
+  return summarise(samples, Vector::Ones(samples.size()), lower, upper);
+}
+
+ActingSummary summarise_acting(const Vector& samples, const Vector& weights, double upper) {
+  std::vector<Eigen::Index> acting;
+  for (Eigen::Index i = 0; i < samples.size(); ++i)
+    if (samples[i] > 0) acting.push_back(i);
+  ActingSummary result{std::min(1.0, weights(acting).sum() / weights.sum()),
+                       summarise(samples, weights, 0, upper)};
+  if (acting.empty()) return result;
+  const MarginalSummary pull = summarise(samples(acting), weights(acting), 0, upper);
+  result.force.low = 1 - result.acts > surely ? 0 : pull.low, result.force.high = pull.high;
+  return result;
 }
 
 std::vector<TradeOff> unseen_directions(const Matrix& jacobian, const Matrix& prior_precision,
@@ -103,13 +136,11 @@ FitTest test_fit(const Vector& r, const Matrix& scatter, double used, double gai
                              : Verdict::mismatch};
 }
 
-Estimate estimate(const Unknown& c, double mode, double lower, double upper, const Vector& samples,
-                  const Vector& believed) {
+Estimate estimate(const Unknown& c, double mode, const MarginalSummary& s, double prior_sd) {
   Estimate e{c.name, c.value(mode), c.scale, c.unit, c.kind};
-  const auto s = summarise(samples, mode, lower, upper);
-  const double spread = std::sqrt((believed.array() - believed.mean()).square().mean());
+  e.mean = c.value(s.mean), e.median = c.value(s.median);
   e.sd = s.sd * c.slope(c.value(mode)), e.low = c.value(s.low), e.high = c.value(s.high);
-  e.information_bits = std::max(0.0, std::log2(spread / std::max(1e-12, s.sd)));
+  e.information_bits = std::max(0.0, std::log2(prior_sd / std::max(1e-12, s.sd)));
   return e;
 }
 

@@ -27,13 +27,22 @@ BoxGaussian density_of(const PriorTerms& prior);
 LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
                        const Matrix& covariance);
 
-/// Standard deviation of samples and the shortest interval that holds 90 % of them and the mode: it
-/// is one-sided where the density does not fall towards a bound, so that a muscle that may well be
-/// at rest is not claimed to pull.
+/// Of weighted samples: moments, and the shortest interval that holds 90 % of them. It is one-sided
+/// where the density does not fall towards a bound.
 struct MarginalSummary {
-  double sd, low, high;
+  double mean, median, sd, low, high;
 };
-MarginalSummary summarise(Vector samples, double mode, double lower, double upper);
+MarginalSummary summarise(const Vector& samples, const Vector& weights, double lower, double upper);
+/// The same of samples that count alike.
+MarginalSummary summarise(const Vector& samples, double lower, double upper);
+
+/// Of a muscle that may rest: the interval is that of the samples that act, and reaches 0 unless
+/// those that rest are fewer than one in twenty.
+struct ActingSummary {
+  double acts;  ///< probability
+  MarginalSummary force;
+};
+ActingSummary summarise_acting(const Vector& samples, const Vector& weights, double upper);
 
 /// The chi-square test of a fit, and what it means.
 struct FitTest {
@@ -44,9 +53,9 @@ struct FitTest {
 /// would lose, twice, by the Gauss-Newton step of the problem without bounds.
 FitTest test_fit(const Vector& residuals, const Matrix& scatter, double used, double gain);
 
-/// Estimate of an unknown from its mode and samples of its posterior and of its prior.
-Estimate estimate(const Unknown& unknown, double mode, double lower, double upper,
-                  const Vector& samples, const Vector& believed);
+/// Estimate of an unknown from its mode, what its posterior says, and the prior's sd of z.
+Estimate estimate(const Unknown& unknown, double mode, const MarginalSummary& posterior,
+                  double prior_sd);
 
 /// Directions about which the data say less than the prior: eigenvalues below 1 of the data's
 /// information in units of the prior's precision. Each is a group of commands and how much of each

@@ -14,7 +14,7 @@ void double_forces(std::vector<Estimate>& unknowns) {
   for (Estimate& c : unknowns) {
     if (c.kind != Unknown::Kind::muscle) continue;
     c.best *= 2, c.maximum *= 2, c.sd *= 2;
-    c.low *= 2, c.high *= 2;
+    c.low *= 2, c.high *= 2, c.median *= 2, c.mean *= 2;
   }
 }
 
@@ -47,6 +47,7 @@ InferOptions half_options(const Mirror& mirror, const InferOptions& options) {
 
 Answer whole_answer(const Mirror& mirror, Answer answer) {
   double_forces(answer.muscles);
+  for (JointForce& joint : answer.joint) joint.low *= 2, joint.high *= 2;
   for (TradeOff& trade : answer.unidentified)
     for (Share& share : trade)
       for (const Estimate& c : answer.muscles)

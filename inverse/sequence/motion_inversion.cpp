@@ -106,10 +106,11 @@ void summarise(MotionProblem& problem, const Vector& u, const ModelError& error,
       const Eigen::Index i = n * Eigen::Index(knot) + c;
       const Unknown& unknown = problem.unknowns()[size_t(c)];
       Estimate e{unknown.name, u[i] * unknown.scale, unknown.scale, unknown.unit, unknown.kind};
-      e.low = e.high = e.best, e.fixed = true;
+      e.low = e.high = e.median = e.mean = e.best, e.fixed = true;
       if (f < open.size() && open[f] == i) {
-        e = estimate(unknown, u[i], problem.lower()[i], problem.upper()[i],
-                     samples.row(Eigen::Index(f)), believed.row(Eigen::Index(f)));
+        const double lower = problem.lower()[i], upper = problem.upper()[i];
+        e = estimate(unknown, u[i], genio::summarise(samples.row(Eigen::Index(f)), lower, upper),
+                     genio::summarise(believed.row(Eigen::Index(f)), lower, upper).sd);
         const int side = pressed(narrow.density, Eigen::Index(f));
         e.at_lower = side<0, e.at_upper = side> 0;
         ++f;

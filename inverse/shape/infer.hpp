@@ -56,6 +56,7 @@ struct Answer {
   Verdict verdict = Verdict::none;
   std::vector<Estimate> muscles;
   std::vector<Estimate> others;           ///< parameters and head pose estimated along
+  std::vector<JointForce> joint;          ///< muscles of which one acts, though each may rest
   std::vector<TradeOff> unidentified;     ///< muscles the data cannot tell apart
   double weight = 1;                      ///< of this optimum among those found
   std::vector<Alternative> alternatives;  ///< the others, likeliest first; see infer_from_starts

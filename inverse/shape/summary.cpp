@@ -7,12 +7,14 @@
 #include <cmath>
 
 #include "inverse/posterior/box_integral.hpp"
+#include "inverse/shape/acting_posterior.hpp"
 
 namespace genio {
 namespace {
 
-constexpr int sample_count = 2000;
 constexpr int prior_sample_count = 1000;
+constexpr int most_turns = 2;     // derivatives taken again
+constexpr double straight = 0.1;  // standard deviations a row that do not change a posterior
 
 std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
@@ -33,51 +35,91 @@ LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint&
                          objective.exact_hessian(optimum), objective.gauss_newton(optimum));
 }
 
-void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
+namespace {
+
+/// The posterior by the derivative at its own mean, as far as that changes it.
+ActingPosterior settled_posterior(Objective& objective, const ObjectivePoint& optimum,
+                                  const Comparison& comparison, const ModelError& error) {
+  const auto by = [&](const ObjectivePoint& p) {
+    return acting_posterior(p, objective.unknowns(), objective.prior(), error,
+                            displacement_from_rest(comparison, p.equilibrium.x));
+  };
+  ActingPosterior posterior = by(optimum);
+  ObjectivePoint here = optimum;
+  for (int k = 0; k < most_turns; ++k) {
+    Vector mean = here.activations;
+    mean(posterior.which) = posterior.centre;
+    const ObjectivePoint* there = objective.derivatives(mean);
+    if (!there || nonlinearity(here, *there) < straight) break;
+    here = *there;
+    posterior = by(here);
+  }
+  return posterior;
+}
+
+/// Fills the estimates of muscles and others.
+void set_estimates(const Objective& objective, const ActingPosterior& posterior,
+                   const LocalPosterior& narrow, const Vector& z, Answer& answer) {
+  const PriorTerms& prior = objective.prior();
+  const Matrix before = sample(density_of(prior), prior_sample_count);
+  const auto& [values, weights] = posterior.samples;
+  answer.muscles.clear(), answer.others.clear();
+  for (Eigen::Index i = 0, f = 0; i < z.size(); ++i) {
+    const Unknown& c = objective.unknowns()[size_t(i)];
+    Estimate e{c.name, c.value(z[i]), c.scale, c.unit, c.kind};
+    e.low = e.high = e.median = e.mean = e.best;
+    e.fixed = prior.fixed(i);
+    if (!e.fixed) {
+      const double lower = prior.lower[i], upper = prior.upper[i];
+      if (posterior.belief.slab[f] > 0) {
+        const ActingSummary s = summarise_acting(values.row(f), weights, upper);
+        e = estimate(c, z[i], s.force, prior_sd(posterior.belief, f));
+        e.acts = s.acts;
+      } else {
+        e = estimate(c, z[i], summarise(values.row(f), weights, lower, upper),
+                     summarise(before.row(f), lower, upper).sd);
+      }
+      const int side = pressed(narrow.density, f);
+      e.at_lower = side<0, e.at_upper = side> 0;
+      if (side != 0) e.multiplier = std::abs(narrow.density.slope[f]);
+      ++f;
+    }
+    (c.kind == Unknown::Kind::muscle ? answer.muscles : answer.others).push_back(std::move(e));
+  }
+  answer.joint = joint_forces(posterior, objective.unknowns());
+}
+
+}  // namespace
+
+void summarise_posterior(Objective& objective, const ObjectivePoint& point,
                          const Comparison& comparison, const ModelError& error, Answer& answer) {
+  const ObjectivePoint optimum = point;  // the objective forgets it at its next
   const auto& unknowns = objective.unknowns();
   const PriorTerms& prior = objective.prior();
   const Matrix rough = objective.gauss_newton(optimum);
   const Vector& z = optimum.activations;
   const LocalPosterior narrow = local_posterior(objective, optimum);
   const auto& which = narrow.which;
-  const double displacement = displacement_from_rest(comparison, optimum.equilibrium.x);
-  const auto erring = [&](double part) {
-    return model_error_covariance(optimum.residuals, std::max(error.least, part * displacement),
-                                  error.length);
-  };
-  const LocalPosterior posterior =
-      widened(narrow, optimum.jacobian(Eigen::all, which), erring(error.part));
-  const Matrix samples = sample(posterior.density, sample_count);
-  const BoxGaussian belief = density_of(prior);
-  const Matrix before = sample(belief, prior_sample_count);
+  set_estimates(objective, settled_posterior(objective, optimum, comparison, error), narrow, z,
+                answer);
 
-  answer.muscles.clear(), answer.others.clear();
   std::vector<std::string> at_maximum, at_zero;
   std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0, f = 0; i < z.size(); ++i) {
-    const Unknown& c = unknowns[size_t(i)];
-    Estimate e{c.name, c.value(z[i]), c.scale, c.unit, c.kind};
-    e.low = e.high = e.best;
-    e.fixed = prior.fixed(i);
-    if (!e.fixed) {
-      e = estimate(c, z[i], prior.lower[i], prior.upper[i], samples.row(f), before.row(f));
-      const int side = pressed(narrow.density, f);
-      e.at_lower = side<0, e.at_upper = side> 0;
-      if (side != 0) e.multiplier = std::abs(narrow.density.slope[f]);
-      if (!e.at_lower && !e.at_upper) free.push_back(i);
-      ++f;
-    }
-    if (c.kind == Unknown::Kind::muscle) {
-      if (e.at_upper) at_maximum.push_back(c.name);
-      if (e.at_lower) at_zero.push_back(c.name);
-    }
-    (c.kind == Unknown::Kind::muscle ? answer.muscles : answer.others).push_back(std::move(e));
+  for (Eigen::Index f = 0; f < Eigen::Index(which.size()); ++f) {
+    const Unknown& c = unknowns[size_t(which[size_t(f)])];
+    const int side = pressed(narrow.density, f);
+    if (side == 0) free.push_back(which[size_t(f)]);
+    if (c.kind == Unknown::Kind::muscle && side != 0)
+      (side > 0 ? at_maximum : at_zero).push_back(c.name);
   }
+  const Matrix left = model_error_covariance(
+      optimum.residuals,
+      std::max(error.least, error.left * displacement_from_rest(comparison, optimum.equilibrium.x)),
+      error.length);
   std::vector<Unknown> open;
   for (auto i : which) open.push_back(unknowns[size_t(i)]);
   answer.unidentified =
-      unseen_directions(optimum.jacobian(Eigen::all, which), belief.hessian, open);
+      unseen_directions(optimum.jacobian(Eigen::all, which), density_of(prior).hessian, open);
   answer.log_evidence = -optimum.value + log_integral(narrow.density);
 
   const Matrix j_free = optimum.jacobian(Eigen::all, free);
@@ -85,7 +127,7 @@ void summarise_posterior(const Objective& objective, const ObjectivePoint& optim
       free.empty() ? 0.0
                    : (j_free * Matrix(rough(free, free)).llt().solve(j_free.transpose())).trace();
   const Vector& r = optimum.residuals.values;
-  const FitTest test = test_fit(r, erring(error.left) + Matrix::Identity(r.size(), r.size()), used,
+  const FitTest test = test_fit(r, left + Matrix::Identity(r.size(), r.size()), used,
                                 optimum.gradient.dot(rough.llt().solve(optimum.gradient)));
   answer.chi2_per_dof = test.chi2_per_dof, answer.verdict = test.verdict;
   Eigen::Index worst = 0;

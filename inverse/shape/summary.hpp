@@ -20,7 +20,10 @@ double displacement_from_rest(const Comparison& comparison, const Positions& x);
 /// fit leaves of the model's own error, with rows minus effective parameters as degrees of freedom:
 /// passed is `explained`. Otherwise `unreachable` when the Gauss-Newton step of the problem without
 /// bounds would take away at least half of the excess (the bounds stop it), else `mismatch`.
-void summarise_posterior(const Objective& objective, const ObjectivePoint& optimum,
+///
+/// The posterior is that of acting_posterior(). Where the shape's derivative at the optimum does
+/// not foretell the shape at the posterior's mean, it is taken again there.
+void summarise_posterior(Objective& objective, const ObjectivePoint& optimum,
                          const Comparison& comparison, const ModelError& error, Answer& answer);
 
 }  // namespace genio

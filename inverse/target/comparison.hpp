@@ -10,13 +10,21 @@
 
 namespace genio {
 
-/// How wrong the model itself may be, as a smooth Gaussian field on the tongue's surface: other
-/// anatomy, fibre directions, discretisation. Set by `genio bench blind`.
+/// How wrong the model itself may be: other anatomy, fibre directions, discretisation. Standard
+/// deviations of Gaussian fields on the tongue's surface are parts of the line's way from rest
+/// (root mean square).
 struct ModelError {
-  double part = 0.33;     ///< standard deviation, of the line's way from rest (root mean square)
-  double left = 0.05;     ///< the same of what the fit cannot absorb, for the verdict
-  double least = 1e-4;    ///< [m]
-  double length = 0.012;  ///< of correlation [m]
+  double left = 0.05;     ///< of what a fit cannot absorb, for the verdict
+  double length = 0.012;  ///< over which that is alike [m]
+  double least = 1e-4;    ///< of any field [m]
+  // For the posterior, set by `genio bench calibration`: a rough field, a smooth one, and a factor
+  // of every muscle's force.
+  double rough = 0.05, rough_length = 6e-3, smooth = 0.06, smooth_length = 0.02;
+  /// Of the logarithm of what a newton does: at rest, and more a metre of the way from it, for the
+  /// law of the tissue shows where it is strained.
+  double efficacy_sd = 0.2, efficacy_by_way = 40;
+  // For a movement, whose posterior is a Gaussian, set by `genio bench blind`.
+  double part = 0.33;  ///< with the length of `left`
 };
 
 /// Noise-weighted residuals and their derivatives.

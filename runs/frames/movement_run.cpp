@@ -44,6 +44,7 @@ std::vector<Estimate> commands_at(const MotionAnswer& a, double time_s) {
     const Estimate& before = a.estimates[j - 1][c];
     const auto between = [&](double from, double& to) { to = (1 - s) * from + s * to; };
     between(before.best, result[c].best), between(before.sd, result[c].sd);
+    between(before.median, result[c].median), between(before.mean, result[c].mean);
     between(before.low, result[c].low), between(before.high, result[c].high);
     between(before.information_bits, result[c].information_bits);
   }

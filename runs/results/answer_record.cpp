@@ -19,7 +19,7 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   j["label"] = v.label, j["recording"] = v.recording, j["speaker"] = v.speaker;
   j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
   for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation", "information_bits",
-                          "bound_multipliers", "estimated"})
+                          "bound_multipliers", "estimated", "acts", "median_N", "mean_N"})
     j[key] = nlohmann::json::object();
   for (const auto& c : v.muscles) {
     j["forces_N"][c.name] = c.best;
@@ -27,11 +27,20 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
     j["interval90_N"][c.name] = {c.low, c.high};
     j["activation"][c.name] = c.best / c.maximum;
     j["information_bits"][c.name] = c.information_bits;
+    const std::pair<const char*, double> told[] = {
+        {"acts", c.acts}, {"median_N", c.median}, {"mean_N", c.mean}};
+    for (const auto& [key, value] : told)
+      if (std::isfinite(value)) j[key][c.name] = value;
     if (c.multiplier > 0) j["bound_multipliers"][c.name] = c.multiplier;
   }
   for (const auto& c : v.others)
     j["estimated"][c.name] = {
         {"value", c.best}, {"unit", c.unit}, {"sd", c.sd}, {"interval90", {c.low, c.high}}};
+  j["either"] = nlohmann::json::array();
+  for (const JointForce& joint : v.joint)
+    j["either"].push_back({{"muscles", joint.names},
+                           {"acts", joint.acts},
+                           {"interval90_N", {joint.low, joint.high}}});
   j["rms_mm"] = v.rms_mm, j["max_mm"] = v.max_mm, j["chi2_per_dof"] = v.chi2_per_dof;
   j["unidentified"] = v.unidentified;
   j["trade_offs"] = nlohmann::json::array();
@@ -108,7 +117,11 @@ bool agree(const AnswerRecord& a, const AnswerRecord& b) {
     const auto other = b.forces_N.find(force.first);
     const auto sd = a.sd_N.find(force.first);
     const double near = std::max(1e-6, sd == a.sd_N.end() ? 0 : 0.1 * sd->second);
-    return other != b.forces_N.end() && !(std::abs(other->second - force.second) > near);
+    if (other == b.forces_N.end()) return false;
+    const auto one = a.activation.find(force.first), two = b.activation.find(force.first);
+    const bool alike = one != a.activation.end() && two != b.activation.end() &&
+                       std::abs(one->second - two->second) < 2e-3;
+    return alike || !(std::abs(other->second - force.second) > near);
   });
 }
 
@@ -129,7 +142,7 @@ std::optional<AnswerRecord> read_record(const std::string& line) {
   r.rms_mm = number(answer, "rms_mm"), r.max_mm = number(answer, "max_mm");
   r.chi2_per_dof = number(answer, "chi2_per_dof"), r.wall_s = number(answer, "wall_s");
   r.forces_N = numbers(answer, "forces_N"), r.sd_N = numbers(answer, "sd_N");
-  r.activation = numbers(answer, "activation");
+  r.activation = numbers(answer, "activation"), r.acts = numbers(answer, "acts");
   r.estimated = estimated_values(answer);
   r.registration = registration_of(answer);
   return r;

@@ -22,7 +22,7 @@ struct AnswerRecord {
   std::string label, recording, speaker;
   std::string status, verdict;
   double rms_mm = 0, max_mm = 0, chi2_per_dof = 0, wall_s = 0;
-  std::map<std::string, double> forces_N, sd_N, activation;  ///< by muscle
+  std::map<std::string, double> forces_N, sd_N, activation, acts;  ///< by muscle
   std::map<std::string, double> estimated;  ///< other unknowns, each in its own unit
   /// How the recording was laid beside the model; NaN where the answer does not tell.
   struct Laid {
@@ -36,7 +36,7 @@ struct AnswerRecord {
 };
 
 /// True where both are the same answer to the same frame, as when neighbours started elsewhere:
-/// forces within a tenth of their standard deviations.
+/// forces within a tenth of their standard deviations, or a five-hundredth of their maxima.
 bool agree(const AnswerRecord& a, const AnswerRecord& b);
 
 /// Answers by frame.

@@ -14,6 +14,7 @@ struct AnswerView {
   std::string label, recording, speaker;                     ///< of the frame, where known
   std::vector<Estimate> muscles;
   std::vector<Estimate> others;  ///< parameters and head pose
+  std::vector<JointForce> joint;
   std::vector<std::vector<std::string>> unidentified;
   std::vector<TradeOff> trade_offs;  ///< of each unidentified group
   double weight = 1;

@@ -19,8 +19,10 @@ TEST_F(Infer, MeetsASimulatedShapeFromRest) {
   for (const auto& c : a.muscles) {
     EXPECT_GE(c.best, 0);
     EXPECT_LE(c.best, c.maximum);
-    EXPECT_LE(c.low, c.best + 1e-9);
-    EXPECT_GE(c.high, c.best - 1e-9);
+    EXPECT_LE(c.low, c.median + 1e-9);
+    EXPECT_GE(c.high, c.median - 1e-9);
+    EXPECT_GE(c.acts, 0);
+    EXPECT_LE(c.acts, 1);
     EXPECT_GT(c.sd, 0);
   }
 }

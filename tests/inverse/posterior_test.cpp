@@ -164,22 +164,43 @@ TEST(CutNormal, HasTheShortestIntervalThatHoldsNineInTen) {
 }
 
 TEST(Marginal, FarFromBoundsIsCentral) {
-  const auto s = summarise(sample(one(0.5, 0, 400, 0, 1), 20000).row(0), 0.5, 0, 1);
+  const auto s = summarise(sample(one(0.5, 0, 400, 0, 1), 20000).row(0), 0, 1);
   EXPECT_NEAR(s.sd, 0.05, 2e-3);
   EXPECT_NEAR(s.low, 0.5 - 1.6449 * 0.05, 4e-3);
   EXPECT_NEAR(s.high, 0.5 + 1.6449 * 0.05, 4e-3);
 }
 
 TEST(Marginal, AtABoundIsOneSided) {
-  const auto s = summarise(sample(one(0, 100, 1e-3, 0, 1), 20000).row(0), 0, 0, 1);
+  const auto s = summarise(sample(one(0, 100, 1e-3, 0, 1), 20000).row(0), 0, 1);
   EXPECT_EQ(s.low, 0);
   EXPECT_NEAR(s.high, std::log(10.0) / 100, 2e-3);
 }
 
-TEST(Marginal, IntervalHoldsItsModeNearABound) {
-  const auto s = summarise(sample(one(0.001, 0, 400, 0, 1), 4000).row(0), 0.001, 0, 1);
-  EXPECT_LE(s.low, 0.001);
-  EXPECT_GE(s.high, 0.001);
+TEST(Marginal, CountsWeightsAsRepetition) {
+  const Vector thrice{{0.1, 0.1, 0.1, 0.3, 0.8}}, once{{0.8, 0.1, 0.3}}, weights{{1, 3, 1}};
+  const auto a = summarise(thrice, 0, 1), b = summarise(once, weights, 0, 1);
+  EXPECT_NEAR(a.mean, b.mean, 1e-12);
+  EXPECT_NEAR(a.sd, b.sd, 1e-12);
+  EXPECT_EQ(a.median, b.median);
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_EQ(a.high, b.high);
+}
+
+TEST(ActingSummary, ReachesRestUnlessTheMuscleSurelyActs) {
+  Vector samples = Vector::LinSpaced(1000, 0.4, 0.6);
+  const Vector weights = Vector::Constant(1000, 1e-3);
+  const auto surely = summarise_acting(samples, weights, 1);
+  EXPECT_NEAR(surely.acts, 1, 1e-9);
+  EXPECT_NEAR(surely.force.high - surely.force.low, 0.18, 1e-3);
+  samples.head(100).setZero();
+  const auto open = summarise_acting(samples, weights, 1);
+  EXPECT_NEAR(open.acts, 0.9, 1e-9);
+  EXPECT_EQ(open.force.low, 0);
+  EXPECT_GT(open.force.high, 0.57);
+  EXPECT_NEAR(open.force.mean, samples.mean(), 1e-12);
+  const auto rest = summarise_acting(Vector::Zero(10), Vector::Constant(10, 0.1), 1);
+  EXPECT_EQ(rest.acts, 0);
+  EXPECT_EQ(rest.force.high, 0);
 }
 
 TEST(UnseenDirections, NameWhatTradesForWhat) {

@@ -104,7 +104,7 @@ TEST_F(PriorTermsOfHalf, EveryTermHasTheHalfAnswerOfTheWhole) {
     for (size_t i = 0; i < half.muscles.size(); ++i) {
       const auto &a = half.muscles[i], &b = whole.muscles[i];
       EXPECT_NEAR(a.best, b.best, 0.05 * b.sd + 1e-3 * b.maximum) << a.name;
-      EXPECT_NEAR(a.sd, b.sd, 0.05 * b.sd) << a.name;
+      EXPECT_NEAR(a.sd, b.sd, 0.15 * b.sd) << a.name;  // the noise of thousands of samples
       EXPECT_EQ(a.fixed, b.fixed);
     }
     ASSERT_EQ(half.others.size(), whole.others.size());

@@ -1,4 +1,4 @@
-#include "report/corpus_report.hpp"
+#include "report/answers/corpus_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "report/discovery_page.hpp"
+#include "report/discovery/discovery_page.hpp"
 
-#include "report/discovery_pictures.hpp"
+#include "report/discovery/discovery_pictures.hpp"
 #include "tests/report/markup.hpp"
 
 namespace genio {

@@ -1,6 +1,6 @@
-#include "report/motion_report.hpp"
+#include "report/answers/motion_report.hpp"
 
-#include "report/shape_picture.hpp"
+#include "report/pictures/shape_picture.hpp"
 #include "tests/forward/small_model.hpp"
 #include "tests/report/markup.hpp"
 

@@ -1,4 +1,4 @@
-#include "report/plot.hpp"
+#include "report/pictures/plot.hpp"
 
 #include "tests/report/markup.hpp"
 

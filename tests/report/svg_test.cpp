@@ -1,4 +1,4 @@
-#include "report/svg.hpp"
+#include "report/pictures/svg.hpp"
 
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"

@@ -1,4 +1,4 @@
-#include "report/verification_report.hpp"
+#include "report/discovery/verification_report.hpp"
 
 #include <nlohmann/json.hpp>
 

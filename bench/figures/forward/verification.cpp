@@ -15,7 +15,7 @@
 #include "forward/anatomy/refine.hpp"
 #include "forward/effects/surroundings/gravity.hpp"
 #include "forward/motion/dynamics.hpp"
-#include "report/verification_report.hpp"
+#include "report/discovery/verification_report.hpp"
 
 namespace genio::bench {
 namespace {

@@ -23,6 +23,7 @@ std::vector<std::string> names(const std::vector<Unknown>& unknowns) {
 PriorRows::PriorRows(const std::vector<Unknown>& unknowns)
     : lower_(Eigen::Index(unknowns.size())),
       upper_(Eigen::Index(unknowns.size())),
+      effort_(Vector::Zero(Eigen::Index(unknowns.size()))),
       alone_(unknowns.size(), false) {
   for (size_t i = 0; i < unknowns.size(); ++i)
     lower_[Eigen::Index(i)] = unknowns[i].lower, upper_[Eigen::Index(i)] = unknowns[i].upper;
@@ -40,7 +41,7 @@ void PriorRows::add(Eigen::Index i, double value, double sd) {
 PriorTerms PriorRows::terms() const {
   PriorTerms terms{Matrix(Eigen::Index(rows_.size()), lower_.size()),
                    Eigen::Map<const Vector>(values_.data(), Eigen::Index(values_.size())), lower_,
-                   upper_};
+                   upper_, effort_};
   for (size_t k = 0; k < rows_.size(); ++k) terms.rows.row(Eigen::Index(k)) = rows_[k].transpose();
   return terms;
 }

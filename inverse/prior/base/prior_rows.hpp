@@ -19,6 +19,11 @@ class PriorRows {
   void add(const Vector& weights, double value, double sd);
   /// A row about unknown i alone.
   void add(Eigen::Index i, double value, double sd);
+  /// That z_i is small, of a muscle that rests or acts.
+  void add_effort(Eigen::Index i, double sd) {
+    add(i, 0, sd);
+    effort_[i] = sd;
+  }
   /// True where a row speaks of unknown i alone.
   bool has(Eigen::Index i) const { return alone_[size_t(i)]; }
   /// Holds z_i at a value.
@@ -27,7 +32,7 @@ class PriorRows {
   PriorTerms terms() const;
 
  private:
-  Vector lower_, upper_;
+  Vector lower_, upper_, effort_;
   std::vector<bool> alone_;
   std::vector<Vector> rows_;
   std::vector<double> values_;

@@ -10,6 +10,8 @@ struct PriorTerms {
   Matrix rows;    ///< A
   Vector values;  ///< b
   Vector lower, upper;
+  /// Standard deviation of the effort's row of an unknown that may rest, see acting.hpp; 0: none.
+  Vector effort;
 
   double value(const Vector& z) const { return 0.5 * (rows * z - values).squaredNorm(); }
   Vector gradient(const Vector& z) const { return rows.transpose() * (rows * z - values); }

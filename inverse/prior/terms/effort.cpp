@@ -8,12 +8,17 @@ void EffortTerm::add_rows(const std::vector<Unknown>& unknowns, PriorRows& rows)
   need_positive(effort_sd, "effort");
   for (size_t i = 0; i < unknowns.size(); ++i)
     if (unknowns[i].kind == Unknown::Kind::muscle && !rows.has(Eigen::Index(i)))
-      rows.add(Eigen::Index(i), 0, effort_sd);
+      muscles_rest ? rows.add_effort(Eigen::Index(i), effort_sd)
+                   : rows.add(Eigen::Index(i), 0, effort_sd);
 }
 
 EffortTerm EffortTerm::read(const TomlReader& file) {
   EffortTerm term;
   term.effort_sd = positive(file, file.root(), "effort_sd", term.effort_sd);
+  if (const auto* node = file.root().get("muscles_rest")) {
+    if (!node->is_boolean()) file.fail(*node, "'muscles_rest' must be true or false");
+    term.muscles_rest = **node->as_boolean();
+  }
   return term;
 }
 

@@ -1,4 +1,4 @@
-#include "report/discovery_report.hpp"
+#include "report/discovery/discovery_report.hpp"
 
 #include <nlohmann/json.hpp>
 

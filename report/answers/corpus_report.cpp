@@ -1,4 +1,4 @@
-#include "report/corpus_report.hpp"
+#include "report/answers/corpus_report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "forward/base/text_file.hpp"
-#include "report/run_summary.hpp"
+#include "report/answers/run_summary.hpp"
 #include "runs/results/csv_text.hpp"
 
 namespace genio {
@@ -97,7 +97,7 @@ std::string frame_row(const PlannedRecording& r, int frame, const AnswerRecord* 
   std::string row =
       fmt::format("{},{},{},{}", csv_field(r.name), csv_field(r.file),
                   csv_field(a && !a->speaker.empty() ? a->speaker : r.speaker), frame);
-  if (!a) return row + ",,,,open" + std::string(8 + 3 * muscles.size(), ',') + "\n";
+  if (!a) return row + ",,,,open" + std::string(8 + 4 * muscles.size(), ',') + "\n";
   row += fmt::format(",{},{},{},{},{}", csv_number(a->time_s, 9), csv_field(a->label),
                      csv_field(a->recording), a->status, a->verdict);
   row += fmt::format(",{},{},{}", csv_number(a->rms_mm, 4), csv_number(a->max_mm, 4),
@@ -106,8 +106,8 @@ std::string frame_row(const PlannedRecording& r, int frame, const AnswerRecord* 
       ",{},{},{},{}", csv_number(a->registration.scale, 4), csv_number(a->registration.tilt_deg, 4),
       csv_number(a->registration.palate_rms_mm, 4), a->registration.doubtful ? "yes" : "no");
   for (const std::string& m : muscles)
-    row += fmt::format(",{},{},{}", value_of(a->activation, m), value_of(a->forces_N, m),
-                       value_of(a->sd_N, m));
+    row += fmt::format(",{},{},{},{}", value_of(a->activation, m), value_of(a->forces_N, m),
+                       value_of(a->sd_N, m), value_of(a->acts, m));
   return row + "\n";
 }
 
@@ -116,7 +116,8 @@ std::string corpus_table(const Plan& plan, const CorpusResults& results) {
   std::string csv =
       "recording,file,speaker,frame,time_s,label,take,status,verdict,rms_mm,max_mm,chi2_per_dof,"
       "registration_scale,registration_tilt_deg,registration_palate_rms_mm,registration_doubtful";
-  for (const std::string& m : muscles) csv += fmt::format(",{}_activation,{}_N,{}_sd_N", m, m, m);
+  for (const std::string& m : muscles)
+    csv += fmt::format(",{0}_activation,{0}_N,{0}_sd_N,{0}_acts", m);
   csv += "\n";
   for (size_t r = 0; r < plan.recordings.size(); ++r)
     for (const int frame : plan.recordings[r].frames) {

@@ -1,4 +1,4 @@
-#include "report/motion_report.hpp"
+#include "report/answers/motion_report.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "report/shape_picture.hpp"
+#include "report/pictures/shape_picture.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 
 #include "inverse/target/tongue_line.hpp"
-#include "report/svg.hpp"
+#include "report/pictures/svg.hpp"
 
 namespace genio {
 namespace {

@@ -1,12 +1,12 @@
-#include "report/discovery_page.hpp"
+#include "report/discovery/discovery_page.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/discovery_pictures.hpp"
-#include "report/svg.hpp"
+#include "report/discovery/discovery_pictures.hpp"
+#include "report/pictures/svg.hpp"
 
 namespace genio {
 namespace {

@@ -1,4 +1,4 @@
-#include "report/svg.hpp"
+#include "report/pictures/svg.hpp"
 
 #include <cairo.h>
 #include <fmt/format.h>

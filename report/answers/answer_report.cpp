@@ -1,83 +1,33 @@
-#include "report/answer_report.hpp"
+#include "report/answers/answer_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "forward/base/text_file.hpp"
 #include "inverse/target/tongue_line.hpp"
-#include "report/svg.hpp"
+#include "report/answers/answer_table.hpp"
+#include "report/pictures/svg.hpp"
 #include "runs/results/answer_record.hpp"
 
 namespace genio {
 namespace {
 
-/// Each set of names once: two directions may name the same commands.
-std::vector<std::vector<std::string>> told_once(const std::vector<std::vector<std::string>>& all) {
-  std::set<std::vector<std::string>> known;
-  std::vector<std::vector<std::string>> result;
-  for (const auto& group : all) {
-    auto sorted = group;
-    std::sort(sorted.begin(), sorted.end());
-    if (known.insert(sorted).second) result.push_back(group);
-  }
-  return result;
-}
-
-}  // namespace
-
-std::string to_table(const AnswerView& v) {
-  std::string out;
-  if (!v.muscles.empty())
-    out += fmt::format("{:<8} {:>9} {:>8} {:>9}   {}\n", "muscle", "force N", "% max", "+- sd N",
-                       "90 % interval N");
-  for (const auto& c : v.muscles)
-    out += fmt::format("{:<8} {:9.2f} {:8.1f} {:9.2f}   {:.2f} to {:.2f}\n", c.name, c.best,
-                       100 * c.best / c.maximum, c.sd, c.low, c.high);
-  for (const auto& c : v.others)
-    out += fmt::format("{:<18} {:.3g} +- {:.2g} {}   {:.3g} to {:.3g}\n", c.name, c.best, c.sd,
-                       c.unit, c.low, c.high);
-  if (!v.muscles.empty())
-    out += fmt::format("fit      RMS {:.2f} mm, max {:.2f} mm, chi2/dof {:.2f}\n", v.rms_mm,
-                       v.max_mm, v.chi2_per_dof);
-  for (const auto& group : told_once(v.unidentified))
-    out += fmt::format("unseen   the data {}: {}\n",
-                       group.size() > 1 ? "cannot tell apart" : "say little about",
-                       fmt::join(group, ", "));
-  for (const auto& other : v.alternatives) {
-    out += fmt::format("also     weight {:.2f} (this one {:.2f}), RMS {:.2f} mm:", other.weight,
-                       v.weight, 1e3 * other.rms);
-    for (const auto& c : other.muscles)
-      if (c.best > 0.01 * c.maximum) out += fmt::format(" {} {:.2f} N", c.name, c.best);
-    out += "\n";
-  }
-  if (v.outliers > 0)
-    out += fmt::format("outliers {} values beyond three standard deviations\n", v.outliers);
-  out += fmt::format("status   {}\nverdict  {}{}{}\n", v.status, v.verdict,
-                     v.message.empty() ? "" : ": ", v.message);
-  return out;
-}
-
-std::string to_line(const AnswerView& v) {
-  constexpr size_t shown = 3;
-  std::string out = v.title + ": ";
-  if (v.status != "converged")
-    return out + fmt::format("{}{}{}", v.status, v.message.empty() ? "" : ": ", v.message);
-  out += fmt::format("{}, RMS {:.2f} mm", v.verdict, v.rms_mm);
-  std::vector<Estimate> largest = v.muscles;
-  std::stable_sort(largest.begin(), largest.end(), [](const Estimate& a, const Estimate& b) {
-    return a.best / a.maximum > b.best / b.maximum;
-  });
-  for (size_t i = 0; i < std::min(shown, largest.size()); ++i)
-    out += fmt::format("{}{} {:.2f} N", i == 0 ? "; " : ", ", largest[i].name, largest[i].best);
-  return out;
-}
-
-namespace {
-
 constexpr const char* red = "#c8443a";
+
+/// Empty where it is not known.
+std::string known(double value) {
+  return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
+}
+
+/// Blue for what surely acts, paler for what may rest.
+std::string shade(double acts) {
+  const double part = std::isfinite(acts) ? 0.15 + 0.85 * acts : 1;
+  const auto mixed = [&](int full) { return int(std::lround(255 - part * (255 - full))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", mixed(0x1f), mixed(0x5f), mixed(0xa8));
+}
 
 void draw_plane(Svg& svg, const Model& model, const AnswerView& v) {
   const Axes axes{38, 148, 44, 134, 50, 56, 550, 450};
@@ -126,18 +76,23 @@ void draw_forces(Svg& svg, const AnswerView& v) {
     svg.text(axes.px(p), axes.top + axes.height + 16, fmt::format("{}", p), 11, "middle", "#777");
   }
   svg.text(axes.left + axes.width / 2, axes.top + axes.height + 34,
-           "force, % of maximum; bar: 90 % interval", 12, "middle", "#555");
+           "force, % of maximum; bar: 90 % interval, line: median, ring: best fit", 12, "middle",
+           "#555");
+  if (std::any_of(v.muscles.begin(), v.muscles.end(),
+                  [](const Estimate& c) { return std::isfinite(c.acts); }))
+    svg.text(axes.left + axes.width + 8, axes.top - 6, "acts", 12, "start", "#555");
   for (size_t i = 0; i < v.muscles.size(); ++i) {
     const auto& c = v.muscles[i];
     const double y0 = axes.py(double(n - i) - 0.2), y1 = axes.py(double(n - i) - 0.8),
                  mid = (y0 + y1) / 2;
-    const auto px = [&](double force) { return axes.px(100 * force / c.maximum); };
-    svg.rect(axes.left, y0, px(c.best) - axes.left, y1 - y0, {"none", blue});
-    svg.line(px(c.low), mid, px(c.high), mid, {"#222", "none", 1.6});
-    for (double end : {c.low, c.high})
-      svg.line(px(end), mid - 4, px(end), mid + 4, {"#222", "none", 1.6});
+    const auto px = [&](double force) { return axes.px(100 * std::min(1.0, force / c.maximum)); };
+    svg.rect(px(c.low), y0, px(c.high) - px(c.low), y1 - y0, {"none", shade(c.acts)});
+    if (std::isfinite(c.median))
+      svg.line(px(c.median), y0, px(c.median), y1, {"#222", "none", 2.2});
+    svg.circle(px(c.best), mid, 4, {"#222", "white", 1.4});
     svg.text(axes.left - 8, mid + 4, c.name, 12, "end");
-    svg.text(axes.left + axes.width + 8, mid + 4, fmt::format("{:.2f} N", c.best), 11, "start");
+    if (std::isfinite(c.acts))
+      svg.text(axes.left + axes.width + 8, mid + 4, percent_text(c.acts), 11, "start");
   }
 }
 
@@ -163,10 +118,11 @@ void write_report(const Model& model, const AnswerView& v, int frame, const std:
   write_text(base + ".svg", picture);
   write_png(base + ".png", picture, 1.5);
   write_text(base + ".json", answer_json(v, frame, 2) + "\n");
-  std::string csv = "muscle,force_N,max_force_N,sd_N,low90_N,high90_N\n";
+  std::string csv = "muscle,force_N,max_force_N,sd_N,low90_N,high90_N,acts,median_N,mean_N\n";
   for (const auto& c : v.muscles)
-    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", c.name, c.best, c.maximum, c.sd,
-                       c.low, c.high);
+    csv +=
+        fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{}\n", c.name, c.best, c.maximum,
+                    c.sd, c.low, c.high, known(c.acts), known(c.median), known(c.mean));
   write_text(base + ".csv", csv);
 }
 

@@ -1,4 +1,4 @@
-#include "report/verification_report.hpp"
+#include "report/discovery/verification_report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "forward/base/text_file.hpp"
-#include "report/plot.hpp"
-#include "report/svg.hpp"
+#include "report/pictures/plot.hpp"
+#include "report/pictures/svg.hpp"
 
 namespace genio {
 namespace {

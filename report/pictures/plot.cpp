@@ -1,11 +1,11 @@
-#include "report/plot.hpp"
+#include "report/pictures/plot.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/svg.hpp"
+#include "report/pictures/svg.hpp"
 
 namespace genio {
 namespace {

@@ -1,11 +1,11 @@
-#include "report/discovery_pictures.hpp"
+#include "report/discovery/discovery_pictures.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/svg.hpp"
+#include "report/pictures/svg.hpp"
 
 namespace genio {
 namespace {

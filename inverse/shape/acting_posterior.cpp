@@ -1,0 +1,118 @@
+#include "inverse/shape/acting_posterior.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "inverse/posterior/posterior.hpp"
+
+namespace genio {
+namespace {
+
+constexpr int sample_count = 4000;
+constexpr double surely = 0.95;
+constexpr size_t most_told = 3;  // joint statements
+
+RestBelief rest_belief(const std::vector<Unknown>& unknowns, const PriorTerms& prior,
+                       const std::vector<Eigen::Index>& which) {
+  RestBelief belief;
+  belief.slab = Vector::Zero(Eigen::Index(which.size()));
+  for (size_t k = 0; k < which.size(); ++k)
+    if (prior.effort.size() > 0) belief.slab[Eigen::Index(k)] = prior.effort[which[k]];
+  belief.partner.assign(which.size(), -1);
+  for (size_t a = 0; a < which.size(); ++a)
+    for (size_t b = 0; b < which.size(); ++b)
+      if (a != b && belief.slab[Eigen::Index(a)] > 0 && belief.slab[Eigen::Index(b)] > 0 &&
+          bilateral_name(unknowns[size_t(which[a])].name) ==
+              bilateral_name(unknowns[size_t(which[b])].name))
+        belief.partner[a] = Eigen::Index(b);
+  return belief;
+}
+
+/// Data and prior about the point, without effort where a muscle may rest.
+QuadraticDensity quadratic(const ObjectivePoint& p, const PriorTerms& prior,
+                           const std::vector<Eigen::Index>& which, const Vector& slab,
+                           const Matrix& covariance) {
+  const Matrix j = p.jacobian(Eigen::all, which);
+  const Vector z = p.activations(which);
+  const Matrix weighted = covariance.llt().solve(j);
+  QuadraticDensity d{prior.hessian()(which, which), {}, prior.lower(which), prior.upper(which)};
+  Vector gradient = prior.gradient(p.activations)(which);
+  for (Eigen::Index i = 0; i < slab.size(); ++i)
+    if (const double sd = slab[i]; sd > 0)
+      d.hessian(i, i) -= 1 / (sd * sd), gradient[i] -= z[i] / (sd * sd);
+  d.hessian += j.transpose() * weighted;
+  gradient += weighted.transpose() * p.residuals.values;
+  d.hessian = 0.5 * (d.hessian + d.hessian.transpose()).eval();
+  d.pull = d.hessian * z - gradient;
+  return d;
+}
+
+/// What a newton of each muscle does is not known well: each sample's forces by a factor.
+void spread_forces(const std::vector<Unknown>& unknowns, const std::vector<Eigen::Index>& which,
+                   const Vector& upper, double sd, Matrix& samples) {
+  std::mt19937_64 random(20260102);
+  std::normal_distribution<double> normal(0, sd);
+  for (Eigen::Index k = 0; k < samples.cols(); ++k)
+    for (size_t i = 0; i < which.size(); ++i)
+      if (unknowns[size_t(which[i])].kind == Unknown::Kind::muscle) {
+        double& z = samples(Eigen::Index(i), k);
+        z = std::min(upper[Eigen::Index(i)], z * std::exp(normal(random)));
+      }
+}
+
+}  // namespace
+
+ActingPosterior acting_posterior(const ObjectivePoint& point, const std::vector<Unknown>& unknowns,
+                                 const PriorTerms& prior, const ModelError& error, double way) {
+  ActingPosterior result{prior.open(), {}, {}, {}};
+  result.belief = rest_belief(unknowns, prior, result.which);
+  const Residuals& r = point.residuals;
+  Matrix covariance =
+      model_error_covariance(r, std::max(error.least, error.rough * way), error.rough_length) +
+      model_error_covariance(r, error.smooth * way, error.smooth_length);
+  covariance.diagonal().array() += 1;
+  const QuadraticDensity density =
+      quadratic(point, prior, result.which, result.belief.slab, covariance);
+  result.samples =
+      sample(density, result.belief, acting_states(density, result.belief), sample_count);
+  result.centre = result.samples.values * result.samples.weights;
+  spread_forces(unknowns, result.which, density.upper,
+                error.efficacy_sd + error.efficacy_by_way * way, result.samples.values);
+  return result;
+}
+
+double nonlinearity(const ObjectivePoint& here, const ObjectivePoint& there) {
+  const Vector foretold =
+      here.residuals.values + here.jacobian * (there.activations - here.activations);
+  return std::sqrt((there.residuals.values - foretold).squaredNorm() /
+                   double(std::max<Eigen::Index>(1, foretold.size())));
+}
+
+std::vector<JointForce> joint_forces(const ActingPosterior& posterior,
+                                     const std::vector<Unknown>& unknowns) {
+  const auto& [values, weights] = posterior.samples;
+  const auto acts = [&](Eigen::Index i) {
+    return weights.dot((values.row(i).array() > 0).cast<double>().matrix().transpose());
+  };
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    if (posterior.belief.slab[i] > 0 && acts(i) < surely) open.push_back(i);
+  std::vector<JointForce> all;
+  for (size_t a = 0; a < open.size(); ++a)
+    for (size_t b = 0; b < a; ++b) {
+      const Unknown &first = unknowns[size_t(posterior.which[size_t(open[b])])],
+                    &second = unknowns[size_t(posterior.which[size_t(open[a])])];
+      const Vector sum = first.scale * values.row(open[b]) + second.scale * values.row(open[a]);
+      const ActingSummary s = summarise_acting(sum, weights, first.scale + second.scale);
+      if (s.acts >= surely)
+        all.push_back({{first.name, second.name}, s.acts, s.force.low, s.force.high});
+    }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const JointForce& a, const JointForce& b) { return a.acts > b.acts; });
+  if (all.size() > most_told) all.resize(most_told);
+  return all;
+}
+
+}  // namespace genio
