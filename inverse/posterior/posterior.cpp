@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "inverse/posterior/box_integral.hpp"
 #include "inverse/posterior/distributions.hpp"
@@ -60,27 +59,34 @@ LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
 
 MarginalSummary summarise(const Vector& samples, const Vector& weights, double lower,
                           double upper) {
-  std::vector<Eigen::Index> order(size_t(samples.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index(0));
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return samples[a] < samples[b]; });
+  struct Weighted {
+    double value, weight;
+    bool operator<(const Weighted& other) const { return value < other.value; }
+  };
+  std::vector<Weighted> all;
+  all.reserve(size_t(samples.size()));
+  for (Eigen::Index i = 0; i < samples.size(); ++i) all.push_back({samples[i], weights[i]});
+  // Many samples of what may rest lie at the lower bound, and need no order.
+  std::sort(
+      std::partition(all.begin(), all.end(), [&](const Weighted& w) { return w.value <= lower; }),
+      all.end());
   const double whole = weights.sum();
-  MarginalSummary s{samples.dot(weights) / whole, 0, 0, samples[order.front()],
-                    samples[order.back()]};
+  MarginalSummary s{samples.dot(weights) / whole, 0, 0, all.front().value, all.back().value};
   s.sd = std::sqrt((samples.array() - s.mean).square().matrix().dot(weights) / whole);
   double below = 0;
-  for (auto i : order) {
-    s.median = samples[i];
-    if ((below += weights[i]) >= 0.5 * whole) break;
+  for (const Weighted& w : all) {
+    s.median = w.value;
+    if ((below += w.weight) >= 0.5 * whole) break;
   }
   // The window from `first` on that holds enough.
   double inside = 0;
   size_t end = 0;
-  for (size_t first = 0; first < order.size(); ++first) {
-    while (end < order.size() && inside < part_inside * whole) inside += weights[order[end++]];
+  for (size_t first = 0; first < all.size(); ++first) {
+    while (end < all.size() && inside < part_inside * whole) inside += all[end++].weight;
     if (inside < part_inside * whole) break;
-    const double low = samples[order[first]], high = samples[order[end - 1]];
+    const double low = all[first].value, high = all[end - 1].value;
     if (high - low < s.high - s.low) s.low = low, s.high = high;
-    inside -= weights[order[first]];
+    inside -= all[first].weight;
   }
   // Where the density does not fall towards a bound, the interval reaches it.
   const double near = 0.05 * (s.high - s.low);

@@ -93,26 +93,34 @@ double nonlinearity(const ObjectivePoint& here, const ObjectivePoint& there) {
 std::vector<JointForce> joint_forces(const ActingPosterior& posterior,
                                      const std::vector<Unknown>& unknowns) {
   const auto& [values, weights] = posterior.samples;
-  const auto acts = [&](Eigen::Index i) {
-    return weights.dot((values.row(i).array() > 0).cast<double>().matrix().transpose());
+  const Matrix acting = (values.array() > 0).cast<double>();
+  // Of each pair the probability that both act, and of each muscle that it does.
+  const Matrix both = acting * weights.asDiagonal() * acting.transpose();
+  struct Pair {
+    Eigen::Index first, second;
+    double acts;
   };
-  std::vector<Eigen::Index> open;
-  for (Eigen::Index i = 0; i < values.rows(); ++i)
-    if (posterior.belief.slab[i] > 0 && acts(i) < surely) open.push_back(i);
-  std::vector<JointForce> all;
-  for (size_t a = 0; a < open.size(); ++a)
-    for (size_t b = 0; b < a; ++b) {
-      const Unknown &first = unknowns[size_t(posterior.which[size_t(open[b])])],
-                    &second = unknowns[size_t(posterior.which[size_t(open[a])])];
-      const Vector sum = first.scale * values.row(open[b]) + second.scale * values.row(open[a]);
-      const ActingSummary s = summarise_acting(sum, weights, first.scale + second.scale);
-      if (s.acts >= surely)
-        all.push_back({{first.name, second.name}, s.acts, s.force.low, s.force.high});
-    }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const JointForce& a, const JointForce& b) { return a.acts > b.acts; });
-  if (all.size() > most_told) all.resize(most_told);
-  return all;
+  std::vector<Pair> pairs;
+  const auto open = [&](Eigen::Index i) {
+    return posterior.belief.slab[i] > 0 && both(i, i) < surely;
+  };
+  for (Eigen::Index a = 0; a < values.rows(); ++a)
+    for (Eigen::Index b = 0; b < a; ++b)
+      if (const double either = both(a, a) + both(b, b) - both(a, b);
+          open(a) && open(b) && either >= surely)
+        pairs.push_back({b, a, either});
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.acts > b.acts; });
+  if (pairs.size() > most_told) pairs.resize(most_told);
+  std::vector<JointForce> told;
+  for (const Pair& p : pairs) {
+    const Unknown &first = unknowns[size_t(posterior.which[size_t(p.first)])],
+                  &second = unknowns[size_t(posterior.which[size_t(p.second)])];
+    const Vector sum = first.scale * values.row(p.first) + second.scale * values.row(p.second);
+    const ActingSummary s = summarise_acting(sum, weights, first.scale + second.scale);
+    told.push_back({{first.name, second.name}, p.acts, s.force.low, s.force.high});
+  }
+  return told;
 }
 
 }  // namespace genio

@@ -12,7 +12,7 @@
 namespace genio {
 namespace {
 
-constexpr int prior_sample_count = 1000;
+constexpr int prior_sample_count = 500;
 constexpr int most_turns = 2;     // derivatives taken again
 constexpr double straight = 0.1;  // standard deviations a row that do not change a posterior
 
@@ -49,8 +49,9 @@ ActingPosterior settled_posterior(Objective& objective, const ObjectivePoint& op
   for (int k = 0; k < most_turns; ++k) {
     Vector mean = here.activations;
     mean(posterior.which) = posterior.centre;
-    const ObjectivePoint* there = objective.derivatives(mean);
+    const ObjectivePoint* there = objective.at(mean);
     if (!there || nonlinearity(here, *there) < straight) break;
+    if (!(there = objective.derivatives(mean))) break;
     here = *there;
     posterior = by(here);
   }
@@ -61,7 +62,9 @@ ActingPosterior settled_posterior(Objective& objective, const ObjectivePoint& op
 void set_estimates(const Objective& objective, const ActingPosterior& posterior,
                    const LocalPosterior& narrow, const Vector& z, Answer& answer) {
   const PriorTerms& prior = objective.prior();
-  const Matrix before = sample(density_of(prior), prior_sample_count);
+  // Only of what never rests.
+  const bool all_rest = (posterior.belief.slab.array() > 0).all();
+  const Matrix before = all_rest ? Matrix() : sample(density_of(prior), prior_sample_count);
   const auto& [values, weights] = posterior.samples;
   answer.muscles.clear(), answer.others.clear();
   for (Eigen::Index i = 0, f = 0; i < z.size(); ++i) {
