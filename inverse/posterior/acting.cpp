@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <unordered_map>
@@ -17,7 +18,8 @@ using Acts = std::vector<bool>;
 constexpr int most_weighed = 1 << 9;  // choices, all of which are weighed
 constexpr int sweeps = 60;            // of the Markov chain
 constexpr double least_log = -11;     // of a state that counts, below the likeliest
-constexpr size_t most_states = 400;   // that samples are drawn of
+constexpr size_t most_states = 400;   // all of which are sampled
+constexpr size_t most_others = 100;   // drawn of the rest
 constexpr int least_samples = 16;     // of a state
 constexpr int left_out = 12;          // samples left out of each
 
@@ -52,8 +54,8 @@ class Weights {
     if (known != logs_.end()) return known->second;
     double log = 0;
     const BoxGaussian g = gaussian(key, log);
-    if (g.mode.size() > 0) log += log_integral(g);
-    return logs_[key] = log;
+    if (g.mode.size() > 0 && std::isfinite(log)) log += log_integral(g);
+    return logs_[key] = std::isnan(log) ? -std::numeric_limits<double>::infinity() : log;
   }
   /// The Gaussian of what acts, and the logarithm of its value at the mode with the prior's weight.
   BoxGaussian gaussian(const Acts& key, double& log) const {
@@ -76,7 +78,10 @@ class Weights {
       log -= 0.5 * std::log(1 - rho * rho) + std::log1p(2 / std::numbers::pi * std::asin(rho));
     }
     const Vector pull = density_.pull(which);
-    const Vector centre = which.empty() ? Vector() : Vector(h.llt().solve(pull));
+    const Eigen::LLT<Matrix> factor(h);
+    if (!which.empty() && factor.info() != Eigen::Success)
+      log = -std::numeric_limits<double>::infinity();
+    const Vector centre = which.empty() ? Vector() : Vector(factor.solve(pull));
     const BoxGaussian g = about(centre, h, density_.lower(which), density_.upper(which));
     if (!which.empty()) log += pull.dot(g.mode) - 0.5 * g.mode.dot(h * g.mode);
     return g;
@@ -100,7 +105,6 @@ class Weights {
     std::sort(states.begin(), states.end(), [](const ActingState& a, const ActingState& b) {
       return std::tie(b.weight, b.width, b.acts) < std::tie(a.weight, a.width, a.acts);
     });
-    if (states.size() > most_states) states.resize(most_states);
     for (const ActingState& s : states) sum += s.weight;
     for (ActingState& s : states) s.weight /= sum;
     return states;
@@ -224,8 +228,29 @@ double prior_sd(const RestBelief& belief, Eigen::Index i) {
   return std::sqrt(square - mean * mean);
 }
 
+namespace {
+
+/// The likeliest states, and of the others some by their weights, each for its share of them all.
+std::vector<ActingState> sampled_states(const std::vector<ActingState>& states) {
+  if (states.size() <= most_states + most_others) return states;
+  std::vector<ActingState> result(states.begin(), states.begin() + most_states);
+  double rest = 0, passed = 0;
+  for (size_t k = most_states; k < states.size(); ++k) rest += states[k].weight;
+  const double share = rest / double(most_others);
+  size_t drawn = 0;
+  for (size_t k = most_states; k < states.size(); ++k) {
+    passed += states[k].weight;
+    for (; drawn < most_others && (double(drawn) + 0.5) * share < passed; ++drawn)
+      result.push_back({states[k].acts, states[k].width, share});
+  }
+  return result;
+}
+
+}  // namespace
+
 WeightedSamples sample(const QuadraticDensity& density, const RestBelief& belief,
-                       const std::vector<ActingState>& states, int count) {
+                       const std::vector<ActingState>& all_states, int count) {
+  const std::vector<ActingState> states = sampled_states(all_states);
   const Weights weights(density, belief);
   std::vector<Eigen::Index> numbers;
   Eigen::Index total = 0;
@@ -241,7 +266,8 @@ WeightedSamples sample(const QuadraticDensity& density, const RestBelief& belief
     const BoxGaussian g = weights.gaussian(key, log);
     const auto columns = Eigen::seqN(at, numbers[k]);
     if (g.mode.size() > 0)
-      all.values(weights.acting(key), columns) = sample(g, int(numbers[k]), left_out);
+      all.values(weights.acting(key), columns) =
+          sample(at_mode(g), int(numbers[k]), left_out, unsigned(k + 1));
     all.weights(columns).setConstant(states[k].weight / double(numbers[k]));
     at += numbers[k];
   }

@@ -93,14 +93,32 @@ BoxGaussian about(const Vector& centre, const Matrix& hessian, const Vector& low
   return {mode, hessian * (mode - centre), hessian, lower, upper};
 }
 
+BoxGaussian at_mode(BoxGaussian g) {
+  // One unknown after another: H is definite, so that this converges.
+  constexpr int most = 1000;
+  constexpr double still = 1e-9;  // of the width between the bounds
+  for (int sweep = 0; sweep < most; ++sweep) {
+    double moved = 0;
+    for (Eigen::Index i = 0; i < g.mode.size(); ++i) {
+      const double to =
+          std::clamp(g.mode[i] - g.slope[i] / g.hessian(i, i), g.lower[i], g.upper[i]);
+      const double by = to - g.mode[i];
+      g.mode[i] = to, g.slope += by * g.hessian.col(i);
+      moved = std::max(moved, std::abs(by) / (g.upper[i] - g.lower[i]));
+    }
+    if (moved < still) break;
+  }
+  return g;
+}
+
 int pressed(const BoxGaussian& g, Eigen::Index i) {
   if (g.slope[i] > 0 && g.mode[i] < g.lower[i] + at_bound) return -1;
   if (g.slope[i] < 0 && g.mode[i] > g.upper[i] - at_bound) return 1;
   return 0;
 }
 
-Matrix sample(const BoxGaussian& g, int count, int warming) {
-  std::mt19937_64 random(20140601);
+Matrix sample(const BoxGaussian& g, int count, int warming, unsigned seed) {
+  std::mt19937_64 random(seed);
   // Against a bound that presses hard a trajectory would bounce for ever. There the density is an
   // exponential too narrow for the others to notice.
   std::vector<Eigen::Index> soft, hard;

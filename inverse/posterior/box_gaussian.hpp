@@ -21,13 +21,17 @@ struct BoxGaussian {
 BoxGaussian about(const Vector& centre, const Matrix& hessian, const Vector& lower,
                   const Vector& upper);
 
+/// The same density by its highest point within the bounds, where that of about() need not be.
+BoxGaussian at_mode(BoxGaussian density);
+
 /// -1 where the density presses unknown i against its lower bound, 1 against the upper, else 0.
 int pressed(const BoxGaussian& density, Eigen::Index i);
 
 /// Draws `count` samples, a column each, by exact Hamiltonian Monte Carlo (Pakman & Paninski 2014,
 /// J. Comput. Graph. Stat. 23): trajectories of the whitened Gaussian are circles that bounce off
 /// the bounds. Always the same samples for the same arguments; the first `warming` are left out.
+/// The density is given about its mode.
 /// Throws std::invalid_argument where H is not positive definite.
-Matrix sample(const BoxGaussian& density, int count, int warming = 100);
+Matrix sample(const BoxGaussian& density, int count, int warming = 100, unsigned seed = 20140601);
 
 }  // namespace genio

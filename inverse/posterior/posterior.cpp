@@ -15,6 +15,7 @@ namespace {
 
 constexpr double test_level = 0.01;
 constexpr double part_inside = 0.9;  // of an interval
+constexpr double finest = 1e-3;      // standard deviation of z that counts as information
 constexpr double surely = 0.05;      // probability of rest, below which a muscle surely acts
 
 }  // namespace
@@ -115,6 +116,7 @@ std::vector<TradeOff> unseen_directions(const Matrix& jacobian, const Matrix& pr
                                         const std::vector<Unknown>& unknowns) {
   constexpr double part = 0.35;  // of a unit direction: less does not name a command
   std::vector<TradeOff> groups;
+  if (jacobian.cols() == 0) return groups;
   const Matrix information = jacobian.transpose() * jacobian;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(information, prior_precision);
   for (Eigen::Index k = 0; k < information.rows(); ++k) {
@@ -146,7 +148,7 @@ Estimate estimate(const Unknown& c, double mode, const MarginalSummary& s, doubl
   Estimate e{c.name, c.value(mode), c.scale, c.unit, c.kind};
   e.mean = c.value(s.mean), e.median = c.value(s.median);
   e.sd = s.sd * c.slope(c.value(mode)), e.low = c.value(s.low), e.high = c.value(s.high);
-  e.information_bits = std::max(0.0, std::log2(prior_sd / std::max(1e-12, s.sd)));
+  e.information_bits = std::max(0.0, std::log2(prior_sd / std::max(finest, s.sd)));
   return e;
 }
 

@@ -28,7 +28,8 @@ Matrix prior_draws(const PriorTerms& prior, int count) {
 bool distinct(const Answer& a, const Answer& b) {
   for (size_t i = 0; i < a.muscles.size(); ++i) {
     const auto &p = a.muscles[i], &q = b.muscles[i];
-    const double spread = std::max({p.sd, q.sd, 1e-3 * p.maximum});
+    // What surely rests has no spread of its own.
+    const double spread = std::max({p.sd, q.sd, 5e-3 * p.maximum});
     if (std::abs(p.best - q.best) > apart * spread) return true;
   }
   // The same forces may hold two shapes.

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "inverse/posterior/posterior.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int sample_count = 4000;
 constexpr double surely = 0.95;
+constexpr double tells = 0.3;    // of the doubt about either one, left about both
 constexpr size_t most_told = 3;  // joint statements
 
 RestBelief rest_belief(const std::vector<Unknown>& unknowns, const PriorTerms& prior,
@@ -19,7 +21,7 @@ RestBelief rest_belief(const std::vector<Unknown>& unknowns, const PriorTerms& p
   RestBelief belief;
   belief.slab = Vector::Zero(Eigen::Index(which.size()));
   for (size_t k = 0; k < which.size(); ++k)
-    if (prior.effort.size() > 0) belief.slab[Eigen::Index(k)] = prior.effort[which[k]];
+    if (prior.muscles_rest) belief.slab[Eigen::Index(k)] = prior.effort[which[k]];
   belief.partner.assign(which.size(), -1);
   for (size_t a = 0; a < which.size(); ++a)
     for (size_t b = 0; b < which.size(); ++b)
@@ -49,17 +51,24 @@ QuadraticDensity quadratic(const ObjectivePoint& p, const PriorTerms& prior,
   return d;
 }
 
-/// What a newton of each muscle does is not known well: each sample's forces by a factor.
-void spread_forces(const std::vector<Unknown>& unknowns, const std::vector<Eigen::Index>& which,
-                   const Vector& upper, double sd, Matrix& samples) {
+/// What a newton of a muscle does is not known well: each sample's forces by a factor of median 1,
+/// alike on both sides. What EMG tells is told of the force itself.
+void spread_forces(const std::vector<Unknown>& unknowns, const PriorTerms& prior, double sd,
+                   const ActingPosterior& posterior, Matrix& samples) {
   std::mt19937_64 random(20260102);
   std::normal_distribution<double> normal(0, sd);
-  for (Eigen::Index k = 0; k < samples.cols(); ++k)
-    for (size_t i = 0; i < which.size(); ++i)
-      if (unknowns[size_t(which[i])].kind == Unknown::Kind::muscle) {
-        double& z = samples(Eigen::Index(i), k);
-        z = std::min(upper[Eigen::Index(i)], z * std::exp(normal(random)));
-      }
+  std::map<std::string, double> factor;
+  for (Eigen::Index k = 0; k < samples.cols(); ++k) {
+    factor.clear();
+    for (size_t f = 0; f < posterior.which.size(); ++f) {
+      const Eigen::Index i = posterior.which[f];
+      if (prior.effort.size() == 0 || prior.effort[i] == 0) continue;
+      const auto [it, fresh] = factor.try_emplace(bilateral_name(unknowns[size_t(i)].name), 0);
+      if (fresh) it->second = std::exp(normal(random));
+      double& z = samples(Eigen::Index(f), k);
+      z = std::min(prior.upper[i], z * it->second);
+    }
+  }
 }
 
 }  // namespace
@@ -78,8 +87,8 @@ ActingPosterior acting_posterior(const ObjectivePoint& point, const std::vector<
   result.samples =
       sample(density, result.belief, acting_states(density, result.belief), sample_count);
   result.centre = result.samples.values * result.samples.weights;
-  spread_forces(unknowns, result.which, density.upper,
-                error.efficacy_sd + error.efficacy_by_way * way, result.samples.values);
+  spread_forces(unknowns, prior, error.efficacy_sd + error.efficacy_by_way * way, result,
+                result.samples.values);
   return result;
 }
 
@@ -107,7 +116,8 @@ std::vector<JointForce> joint_forces(const ActingPosterior& posterior,
   for (Eigen::Index a = 0; a < values.rows(); ++a)
     for (Eigen::Index b = 0; b < a; ++b)
       if (const double either = both(a, a) + both(b, b) - both(a, b);
-          open(a) && open(b) && either >= surely)
+          open(a) && open(b) && either >= surely &&
+          1 - either < tells * std::min(1 - both(a, a), 1 - both(b, b)))
         pairs.push_back({b, a, either});
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const Pair& a, const Pair& b) { return a.acts > b.acts; });

@@ -23,6 +23,8 @@ struct ModelError {
   /// Of the logarithm of what a newton does: at rest, and more a metre of the way from it, for the
   /// law of the tissue shows where it is strained.
   double efficacy_sd = 0.2, efficacy_by_way = 40;
+  /// efficacy_sd of a speaker who is laid beside the model.
+  static constexpr double another_speaker = 0.8;
   // For a movement, whose posterior is a Gaussian, set by `genio bench blind`.
   double part = 0.33;  ///< with the length of `left`
 };

@@ -67,7 +67,8 @@ void draw_plane(Svg& svg, const Model& model, const AnswerView& v) {
 void draw_forces(Svg& svg, const AnswerView& v) {
   const size_t n = std::max<size_t>(1, v.muscles.size());
   double most = 0.05;
-  for (const auto& c : v.muscles) most = std::max(most, std::min(1.0, c.high / c.maximum));
+  for (const auto& c : v.muscles)
+    most = std::max(most, std::min(1.0, std::max(c.high, c.best) / c.maximum));
   const Axes axes{0, 100 * most * 1.05, 0, double(n), 700, 56, 330, 450};
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
   const double step = most > 0.5 ? 20 : most > 0.2 ? 10 : most > 0.1 ? 5 : 1;

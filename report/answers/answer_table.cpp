@@ -25,16 +25,20 @@ std::vector<std::vector<std::string>> told_once(const std::vector<std::vector<st
 
 /// Which muscles act, which rest, and which the data leave open.
 std::string acting_text(const AnswerView& v) {
-  std::vector<std::string> surely, rest, open;
+  std::vector<std::string> surely, rest, open, known;
   for (const Estimate& c : v.muscles)
-    if (std::isfinite(c.acts))
-      (c.acts >= sure ? surely : c.acts <= 1 - sure ? rest : open).push_back(c.name);
+    (!std::isfinite(c.acts) ? known
+     : c.acts >= sure       ? surely
+     : c.acts <= 1 - sure   ? rest
+                            : open)
+        .push_back(c.name);
   if (surely.empty() && rest.empty() && open.empty()) return "";
   const auto list = [](const std::vector<std::string>& names) {
     return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ", "));
   };
   std::string out = fmt::format("act      surely {}; at rest {}; open {}\n", list(surely),
                                 list(rest), list(open));
+  if (!known.empty()) out += fmt::format("known    before: {}\n", list(known));
   for (const JointForce& j : v.joint)
     out += fmt::format("either   {}, together {:.2f} to {:.2f} N\n", fmt::join(j.names, " or "),
                        j.low, j.high);
@@ -93,7 +97,7 @@ std::string to_line(const AnswerView& v) {
   out += fmt::format("{}, RMS {:.2f} mm", v.verdict, v.rms_mm);
   std::vector<Estimate> largest;
   for (const Estimate& e : v.muscles)
-    if (!(e.acts < 0.5)) largest.push_back(e);
+    if (!(e.acts < 0.5) && !e.fixed) largest.push_back(e);
   const auto middle = [](const Estimate& e) {
     return (std::isfinite(e.median) ? e.median : e.best) / e.maximum;
   };

@@ -78,7 +78,7 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
     for (size_t m = 0; m < muscles.size(); ++m) {
       const std::string& name = muscles[m];
       csv += fmt::format(",{:.5g},{:.5g},{}", value(a.forces_N, name), value(a.sd_N, name),
-                         csv_number(value(a.acts, name), 4));
+                         a.acts.contains(name) ? csv_number(a.acts.at(name), 4) : "");
       series[m].points.emplace_back(frame, 100 * value(a.activation, name));
     }
     csv += "\n";

@@ -137,6 +137,46 @@ TEST(ActingStates, AChainFindsWhatWeighingAllDoes) {
     EXPECT_NEAR(acts(states, size_t(i)), by_all[i] / sum, 0.01) << i;
 }
 
+TEST(ActingSamples, OfCorrelatedForcesAreThoseOfTheirDensity) {
+  // The first force is pulled below its bound and the second one above it: with the bounds clipped
+  // one by one the first would seem pressed far harder than it is.
+  const Matrix hessian = 1e4 * Matrix{{1, 0.99}, {0.99, 1}};
+  const Vector centre{{-0.35, 0.6}};
+  QuadraticDensity d{hessian, hessian * centre, Vector::Zero(2), Vector::Ones(2)};
+  RestBelief b = belief(2, 0.1);
+  b.slab.setZero();
+  double mass = 0, mean = 0, least = 1e9;
+  for (const bool first : {true, false})
+    for (int i = 0; i < 1000; ++i)
+      for (int j = 0; j < 1000; ++j) {
+        const double x = (i + 0.5) * 2e-4;
+        const Vector off = Vector{{x, 0.15 + (j + 0.5) * 2e-4}} - centre;
+        const double q = off.dot(hessian * off);
+        if (first) least = std::min(least, q);
+        else mass += std::exp(0.5 * (least - q)), mean += x * std::exp(0.5 * (least - q));
+      }
+  const WeightedSamples s = sample(d, b, acting_states(d, b), 4000);
+  EXPECT_NEAR(s.values.row(0) * s.weights, mean / mass, 0.1 * mean / mass);
+}
+
+TEST(ActingSamples, OfManyStatesActAsOftenAsAllOfThemSay) {
+  // Data that say nothing: every number of acting ones is as likely, and the likeliest four hundred
+  // states are not a half of them.
+  constexpr Eigen::Index n = 8;
+  QuadraticDensity d{Matrix::Identity(n, n), Vector::Zero(n), Vector::Zero(n), Vector::Ones(n)};
+  const RestBelief b = belief(n, 0.1);
+  const auto states = acting_states(d, b);
+  ASSERT_GT(states.size(), 500u);
+  const WeightedSamples s = sample(d, b, states, 2000);
+  EXPECT_NEAR(s.weights.sum(), 1, 1e-9);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double part = 0;
+    for (Eigen::Index k = 0; k < s.values.cols(); ++k)
+      part += s.values(i, k) > 0 ? s.weights[k] : 0;
+    EXPECT_NEAR(part, 0.5, 0.05) << i;
+  }
+}
+
 TEST(ActingSamples, RestAtExactlyZeroAsOftenAsTheStatesSay) {
   std::mt19937 random(5);
   const Matrix rows = random_matrix(6, 4, 10, random);

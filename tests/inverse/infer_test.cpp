@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 #include "inverse/shape/objective.hpp"
 #include "inverse/target/comparison.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
@@ -25,6 +28,54 @@ TEST_F(Infer, MeetsASimulatedShapeFromRest) {
     EXPECT_LE(c.acts, 1);
     EXPECT_GT(c.sd, 0);
   }
+}
+
+TEST_F(Infer, TellsWhatActsFromWhatRests) {
+  const std::map<std::string, double> forces = {{"GGP", 2.8}, {"SL", 1.2}};
+  const auto a = infer(m, pulled({{"GGP", 2.8}, {"SL", 1.2}}), Prior{}, ws);
+  ASSERT_EQ(a.status, InferStatus::converged) << a.message;
+  double resting = 0;
+  for (const auto& c : a.muscles) {
+    if (forces.contains(c.name)) {
+      EXPECT_GT(c.acts, 0.95) << c.name;
+      EXPECT_LT(c.low, forces.at(c.name)) << c.name;
+      EXPECT_GT(c.high, forces.at(c.name)) << c.name;
+    } else {
+      EXPECT_LT(c.acts, 0.95) << c.name;
+      EXPECT_EQ(c.low, 0) << c.name;
+      resting += c.acts;
+    }
+  }
+  EXPECT_LT(resting / double(a.muscles.size() - forces.size()), 0.4);
+}
+
+TEST_F(Infer, ByEffortAloneNothingRests) {
+  Prior prior;
+  prior.muscles_rest = false;
+  const auto a = infer(m, pulled({{"GGP", 2.8}}), prior, ws);
+  ASSERT_EQ(a.status, InferStatus::converged) << a.message;
+  for (const auto& c : a.muscles) EXPECT_TRUE(std::isnan(c.acts)) << c.name;
+  EXPECT_TRUE(a.joint.empty());
+}
+
+TEST_F(Infer, KeepsWhatEmgTellsOfAForce) {
+  Prior prior;
+  prior.emg["GGP"] = {0.07, 0.002};
+  const auto a = infer(m, pulled({{"GGP", 2.6}, {"SL", 0.6}}), prior, ws);
+  ASSERT_EQ(a.status, InferStatus::converged) << a.message;
+  for (const auto& c : a.muscles)
+    if (c.name == "GGP") {
+      EXPECT_LT(c.sd / c.maximum, 0.0021);
+      EXPECT_TRUE(std::isnan(c.acts));
+    }
+}
+
+TEST_F(Infer, AnswersWhereEveryMuscleIsFixed) {
+  Prior prior;
+  for (const auto& u : muscle_unknowns(m, true)) prior.fixed[u.name] = 0;
+  const auto a = infer(m, pulled({{"GGP", 1}}), prior, ws);
+  ASSERT_EQ(a.status, InferStatus::converged) << a.message;
+  for (const auto& c : a.muscles) EXPECT_EQ(c.high, 0) << c.name;
 }
 
 TEST_F(Infer, GradientIsTheDerivativeOfTheObjective) {

@@ -88,7 +88,7 @@ TEST_F(MultiStart, HalfATongueAnswersAsTheWhole) {
     // Up to the noise of thousands of samples.
     EXPECT_NEAR(a.acts, b.acts, 0.02) << a.name;
     EXPECT_NEAR(a.sd, b.sd, 0.15 * b.sd) << a.name;
-    EXPECT_NEAR(a.high, b.high, 0.5 * b.sd) << a.name;
+    EXPECT_NEAR(a.high, b.high, 0.5 * b.sd + 2e-3 * b.maximum) << a.name;
   }
   EXPECT_LT((half.shape - whole.shape).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_EQ(half.shape_by_unknown.rows(), m.rest.size());

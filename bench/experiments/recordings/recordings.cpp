@@ -47,7 +47,9 @@ Outcome invert(const Model& model, WrittenSession w, const std::string& folder,
     if (target.empty()) return outcome;
     Prior prior;
     prior.head_pose = m.head_pose;
-    outcome.answer = infer_from_starts(model, target, prior, ws);
+    InferOptions options;
+    if (m.head_pose) options.model_error.efficacy_sd = ModelError::another_speaker;
+    outcome.answer = infer_from_starts(model, target, prior, ws, options);
     outcome.explained = outcome.answer.status == InferStatus::converged &&
                         outcome.answer.verdict == Verdict::explained;
   } catch (const std::exception& e) {

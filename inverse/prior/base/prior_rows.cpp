@@ -40,8 +40,11 @@ void PriorRows::add(Eigen::Index i, double value, double sd) {
 
 PriorTerms PriorRows::terms() const {
   PriorTerms terms{Matrix(Eigen::Index(rows_.size()), lower_.size()),
-                   Eigen::Map<const Vector>(values_.data(), Eigen::Index(values_.size())), lower_,
-                   upper_, effort_};
+                   Eigen::Map<const Vector>(values_.data(), Eigen::Index(values_.size())),
+                   lower_,
+                   upper_,
+                   effort_,
+                   muscles_rest_};
   for (size_t k = 0; k < rows_.size(); ++k) terms.rows.row(Eigen::Index(k)) = rows_[k].transpose();
   return terms;
 }

@@ -19,10 +19,10 @@ class PriorRows {
   void add(const Vector& weights, double value, double sd);
   /// A row about unknown i alone.
   void add(Eigen::Index i, double value, double sd);
-  /// That z_i is small, of a muscle that rests or acts.
-  void add_effort(Eigen::Index i, double sd) {
+  /// That z_i is small. `rests`: its muscle may also rest.
+  void add_effort(Eigen::Index i, double sd, bool rests) {
     add(i, 0, sd);
-    effort_[i] = sd;
+    effort_[i] = sd, muscles_rest_ = rests;
   }
   /// True where a row speaks of unknown i alone.
   bool has(Eigen::Index i) const { return alone_[size_t(i)]; }
@@ -33,6 +33,7 @@ class PriorRows {
 
  private:
   Vector lower_, upper_, effort_;
+  bool muscles_rest_ = false;
   std::vector<bool> alone_;
   std::vector<Vector> rows_;
   std::vector<double> values_;

@@ -10,8 +10,9 @@ struct PriorTerms {
   Matrix rows;    ///< A
   Vector values;  ///< b
   Vector lower, upper;
-  /// Standard deviation of the effort's row of an unknown that may rest, see acting.hpp; 0: none.
+  /// Standard deviation of an unknown's row of effort; 0: it has none.
   Vector effort;
+  bool muscles_rest = false;  ///< those of effort may rest, see acting.hpp
 
   double value(const Vector& z) const { return 0.5 * (rows * z - values).squaredNorm(); }
   Vector gradient(const Vector& z) const { return rows.transpose() * (rows * z - values); }

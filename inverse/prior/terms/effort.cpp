@@ -8,8 +8,7 @@ void EffortTerm::add_rows(const std::vector<Unknown>& unknowns, PriorRows& rows)
   need_positive(effort_sd, "effort");
   for (size_t i = 0; i < unknowns.size(); ++i)
     if (unknowns[i].kind == Unknown::Kind::muscle && !rows.has(Eigen::Index(i)))
-      muscles_rest ? rows.add_effort(Eigen::Index(i), effort_sd)
-                   : rows.add(Eigen::Index(i), 0, effort_sd);
+      rows.add_effort(Eigen::Index(i), effort_sd, muscles_rest);
 }
 
 EffortTerm EffortTerm::read(const TomlReader& file) {
