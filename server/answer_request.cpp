@@ -51,11 +51,20 @@ void fill(const Model& model, const Answer& a, command_reply_t& reply) {
     reply.sd_N.push_back(c.sd);
     reply.low_N.push_back(c.low);
     reply.high_N.push_back(c.high);
+    reply.acts.push_back(c.acts);
+    reply.median_N.push_back(c.median);
+    reply.mean_N.push_back(c.mean);
   }
   reply.muscle_count = int(reply.muscle.size());
   for (const auto& group : a.unidentified)
     reply.unidentified.push_back(fmt::format("{}", fmt::join(names(group), "+")));
   reply.group_count = int(reply.unidentified.size());
+  for (const JointForce& joint : a.joint) {
+    reply.either.push_back(fmt::format("{}", fmt::join(joint.names, "+")));
+    reply.either_acts.push_back(joint.acts);
+    reply.either_low_N.push_back(joint.low), reply.either_high_N.push_back(joint.high);
+  }
+  reply.either_count = int(reply.either.size());
   reply.rms_mm = 1e3 * a.rms, reply.max_mm = 1e3 * a.max, reply.chi2_per_dof = a.chi2_per_dof;
   if (a.shape.size() > 0)
     for (const Vec2& p : TongueLine(model).sample(a.shape, 80)) {

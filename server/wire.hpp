@@ -28,7 +28,7 @@ struct WireLayout<shape_request_t> {
 };
 template <>
 struct WireLayout<command_reply_t> {
-  static constexpr const char* fields = "lssssnSDDDDDnSdddiidnDDdnDDnD";
+  static constexpr const char* fields = "lssssnSDDDDDDDDnSnSDDDdddiidnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {

@@ -43,6 +43,15 @@ shape_request_t request_of(const ContourFrame& frame, double noise, const Reques
   return r;
 }
 
+/// Names that stand joined by '+'.
+std::vector<std::string> parted(const std::string& joined) {
+  std::vector<std::string> names(1);
+  for (char c : joined)
+    if (c == '+') names.emplace_back();
+    else names.back() += c;
+  return names;
+}
+
 AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
   AnswerView v;
   tell_frame(frame, v);
@@ -51,16 +60,16 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
     v.muscles.push_back({.name = r.muscle[i],
                          .best = r.force_N[i],
                          .maximum = r.max_force_N[i],
+                         .acts = r.acts[i],
+                         .median = r.median_N[i],
+                         .mean = r.mean_N[i],
                          .sd = r.sd_N[i],
                          .low = r.low_N[i],
                          .high = r.high_N[i]});
-  for (const auto& group : r.unidentified) {
-    std::vector<std::string> names(1);
-    for (char c : group)
-      if (c == '+') names.emplace_back();
-      else names.back() += c;
-    v.unidentified.push_back(std::move(names));
-  }
+  for (const auto& group : r.unidentified) v.unidentified.push_back(parted(group));
+  for (size_t k = 0; k < r.either.size(); ++k)
+    v.joint.push_back(
+        {parted(r.either[k]), r.either_acts[k], r.either_low_N[k], r.either_high_N[k]});
   v.rms_mm = r.rms_mm, v.max_mm = r.max_mm, v.chi2_per_dof = r.chi2_per_dof;
   v.weight = r.weight;
   const size_t muscles = r.muscle.size();
