@@ -24,7 +24,8 @@ def differs(a, b):
     if any(a[c] != b[c] for c in ("file", "speaker", "label", "take", "status", "verdict")):
         return True
     for column in a:
-        if not column.endswith("_N") or column.endswith("_sd_N") or a[column] == b[column]:
+        posterior = ("_sd_N", "_median_N", "_low90_N", "_high90_N")
+        if not column.endswith("_N") or column.endswith(posterior) or a[column] == b[column]:
             continue
         sd = float(a[column.replace("_N", "_sd_N")] or 0)
         if "" in (a[column], b[column]):

@@ -3,7 +3,7 @@
 
 namespace genio {
 
-/// Reads `path`: a TOML file, or a CSV of EMG alone. In TOML: effort_sd, symmetry_sd,
+/// Reads `path`: a TOML file, or a CSV of EMG alone. In TOML: effort_sd, muscles_rest, symmetry_sd,
 /// smoothness_sd, emg = "file.csv" (beside it), [cocontraction] mean, sd; [fixed_N] NAME = force;
 /// [parameter."jaw_opening.angle"] mean, sd; [head_pose] shift_sd_mm, turn_sd_deg.
 /// EMG: one header line `muscle,mean,sd` (activations, 0 to 1). Throws InputError naming file,

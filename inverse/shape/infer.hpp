@@ -75,7 +75,7 @@ struct Answer {
 void start_from(const Answer& answer, InferOptions& options);
 
 /// The forces within [0, maximum] that minimise 1/2 sum (distance / sigma)^2 + 1/2 sum
-/// (activation / effort_sd)^2, see descend(), and the Laplace posterior about them. Throws
+/// (activation / effort_sd)^2, see descend(), and the posterior, see acting_posterior(). Throws
 /// InputError for an empty target.
 ///
 /// This is one descent from one start; multi_start.hpp has the search for all that fit.

@@ -97,7 +97,7 @@ std::string frame_row(const PlannedRecording& r, int frame, const AnswerRecord* 
   std::string row =
       fmt::format("{},{},{},{}", csv_field(r.name), csv_field(r.file),
                   csv_field(a && !a->speaker.empty() ? a->speaker : r.speaker), frame);
-  if (!a) return row + ",,,,open" + std::string(8 + 4 * muscles.size(), ',') + "\n";
+  if (!a) return row + ",,,,open" + std::string(8 + 7 * muscles.size(), ',') + "\n";
   row += fmt::format(",{},{},{},{},{}", csv_number(a->time_s, 9), csv_field(a->label),
                      csv_field(a->recording), a->status, a->verdict);
   row += fmt::format(",{},{},{}", csv_number(a->rms_mm, 4), csv_number(a->max_mm, 4),
@@ -106,8 +106,9 @@ std::string frame_row(const PlannedRecording& r, int frame, const AnswerRecord* 
       ",{},{},{},{}", csv_number(a->registration.scale, 4), csv_number(a->registration.tilt_deg, 4),
       csv_number(a->registration.palate_rms_mm, 4), a->registration.doubtful ? "yes" : "no");
   for (const std::string& m : muscles)
-    row += fmt::format(",{},{},{},{}", value_of(a->activation, m), value_of(a->forces_N, m),
-                       value_of(a->sd_N, m), value_of(a->acts, m));
+    for (const auto* told :
+         {&a->activation, &a->forces_N, &a->sd_N, &a->acts, &a->median_N, &a->low_N, &a->high_N})
+      row += "," + value_of(*told, m);
   return row + "\n";
 }
 
@@ -117,7 +118,8 @@ std::string corpus_table(const Plan& plan, const CorpusResults& results) {
       "recording,file,speaker,frame,time_s,label,take,status,verdict,rms_mm,max_mm,chi2_per_dof,"
       "registration_scale,registration_tilt_deg,registration_palate_rms_mm,registration_doubtful";
   for (const std::string& m : muscles)
-    csv += fmt::format(",{0}_activation,{0}_N,{0}_sd_N,{0}_acts", m);
+    csv += fmt::format(
+        ",{0}_activation,{0}_N,{0}_sd_N,{0}_acts,{0}_median_N,{0}_low90_N,{0}_high90_N", m);
   csv += "\n";
   for (size_t r = 0; r < plan.recordings.size(); ++r)
     for (const int frame : plan.recordings[r].frames) {

@@ -60,7 +60,8 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
       "frame,time_s,label,recording,speaker,status,verdict,registration_scale,"
       "registration_tilt_deg,registration_palate_rms_mm,registration_doubtful,rms_mm,max_mm,"
       "chi2_per_dof";
-  for (const auto& m : muscles) csv += fmt::format(",{0}_N,{0}_sd_N,{0}_acts", m);
+  for (const auto& m : muscles)
+    csv += fmt::format(",{0}_N,{0}_sd_N,{0}_acts,{0}_median_N,{0}_low90_N,{0}_high90_N", m);
   csv += "\n";
   std::vector<Series> series;
   for (const auto& m : muscles) series.push_back({m, {}});
@@ -71,14 +72,15 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
     csv += fmt::format(",{},{},{},{}", csv_number(laid.scale, 4), csv_number(laid.tilt_deg, 4),
                        csv_number(laid.palate_rms_mm, 4), laid.doubtful ? "yes" : "no");
     if (!a.converged()) {
-      csv += std::string(3 + 3 * muscles.size(), ',') + "\n";
+      csv += std::string(3 + 6 * muscles.size(), ',') + "\n";
       continue;
     }
     csv += fmt::format(",{:.4g},{:.4g},{:.4g}", a.rms_mm, a.max_mm, a.chi2_per_dof);
     for (size_t m = 0; m < muscles.size(); ++m) {
       const std::string& name = muscles[m];
-      csv += fmt::format(",{:.5g},{:.5g},{}", value(a.forces_N, name), value(a.sd_N, name),
-                         a.acts.contains(name) ? csv_number(a.acts.at(name), 4) : "");
+      csv += fmt::format(",{:.5g},{:.5g}", value(a.forces_N, name), value(a.sd_N, name));
+      for (const auto* told : {&a.acts, &a.median_N, &a.low_N, &a.high_N})
+        csv += "," + (told->contains(name) ? csv_number(told->at(name), 5) : "");
       series[m].points.emplace_back(frame, 100 * value(a.activation, name));
     }
     csv += "\n";

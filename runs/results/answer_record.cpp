@@ -77,6 +77,16 @@ std::map<std::string, double> numbers(const nlohmann::json& answer, const char* 
   return result;
 }
 
+/// The low (0) or high (1) ends of the intervals.
+std::map<std::string, double> interval_ends(const nlohmann::json& answer, size_t end) {
+  std::map<std::string, double> result;
+  if (const auto it = answer.find("interval90_N"); it != answer.end() && it->is_object())
+    for (const auto& [name, ends] : it->items())
+      if (ends.is_array() && ends.size() == 2 && ends[end].is_number())
+        result[name] = ends[end].get<double>();
+  return result;
+}
+
 std::map<std::string, double> estimated_values(const nlohmann::json& answer) {
   std::map<std::string, double> result;
   if (const auto it = answer.find("estimated"); it != answer.end() && it->is_object())
@@ -143,6 +153,8 @@ std::optional<AnswerRecord> read_record(const std::string& line) {
   r.chi2_per_dof = number(answer, "chi2_per_dof"), r.wall_s = number(answer, "wall_s");
   r.forces_N = numbers(answer, "forces_N"), r.sd_N = numbers(answer, "sd_N");
   r.activation = numbers(answer, "activation"), r.acts = numbers(answer, "acts");
+  r.median_N = numbers(answer, "median_N");
+  r.low_N = interval_ends(answer, 0), r.high_N = interval_ends(answer, 1);
   r.estimated = estimated_values(answer);
   r.registration = registration_of(answer);
   return r;

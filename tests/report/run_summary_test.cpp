@@ -10,7 +10,14 @@ TEST(RunSummary, HasARowAFrameWithItsTimeAndWords) {
   view.status = "converged", view.verdict = "explained";
   view.time_s = 1.25, view.label = "a, \"long\"", view.recording = "take", view.speaker = "S2";
   view.registration = R"({"scale": 0.9, "tilt_deg": -5, "doubtful": true})";
-  view.muscles = {{.name = "GGP", .best = 2, .maximum = 30, .acts = 0.75, .sd = 0.5}};
+  view.muscles = {{.name = "GGP",
+                   .best = 2,
+                   .maximum = 30,
+                   .acts = 0.75,
+                   .median = 1.5,
+                   .sd = 0.5,
+                   .low = 1,
+                   .high = 3}};
   AnswerRecords answers;
   answers[3] = read_record(answer_json(view, 3)).value();
   AnswerView failed;
@@ -22,9 +29,10 @@ TEST(RunSummary, HasARowAFrameWithItsTimeAndWords) {
             "frame,time_s,label,recording,speaker,status,verdict,registration_scale,"
             "registration_tilt_deg,registration_palate_rms_mm,registration_doubtful,"
             "rms_mm,max_mm,chi2_per_dof,"
-            "GGP_N,GGP_sd_N,GGP_acts\n"
-            "3,1.25,\"a, \"\"long\"\"\",take,S2,converged,explained,0.9,-5,,yes,0,0,0,2,0.5,0.75\n"
-            "4,,,,,failed,none,,,,no,,,,,,\n");
+            "GGP_N,GGP_sd_N,GGP_acts,GGP_median_N,GGP_low90_N,GGP_high90_N\n"
+            "3,1.25,\"a, "
+            "\"\"long\"\"\",take,S2,converged,explained,0.9,-5,,yes,0,0,0,2,0.5,0.75,1.5,1,3\n"
+            "4,,,,,failed,none,,,,no,,,,,,,,,\n");
 }
 
 }  // namespace
