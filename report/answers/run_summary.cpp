@@ -81,13 +81,17 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
       csv += fmt::format(",{:.5g},{:.5g}", value(a.forces_N, name), value(a.sd_N, name));
       for (const auto* told : {&a.acts, &a.median_N, &a.low_N, &a.high_N})
         csv += "," + (told->contains(name) ? csv_number(told->at(name), 5) : "");
-      series[m].points.emplace_back(frame, 100 * value(a.activation, name));
+      const auto middle = a.median_N.find(name), most = a.max_force_N.find(name);
+      const bool told = middle != a.median_N.end() && most != a.max_force_N.end();
+      series[m].points.emplace_back(
+          frame, 100 * (told ? middle->second / most->second : value(a.activation, name)));
     }
     csv += "\n";
   }
   write_text(folder + "/summary.csv", csv);
   if (muscles.empty()) return;
-  const std::string svg = plot("Muscle activations", "frame", "% of maximum", series, false, false);
+  const std::string svg =
+      plot("Muscle forces, medians", "frame", "% of maximum", series, false, false);
   write_text(folder + "/summary.svg", svg);
   write_png(folder + "/summary.png", svg, 1.5);
 }

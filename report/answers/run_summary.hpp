@@ -11,7 +11,7 @@ std::string summary_text(const AnswerRecords& answers);
 
 /// Writes summary.csv (a row a frame: its time and label, registration, best fits,
 /// standard deviations, probabilities to act, medians and 90 % intervals, fit, verdict) and
-/// summary.svg, summary.png (activation of every muscle over the frames) into `folder`.
+/// summary.svg, summary.png (the median force of every muscle) into `folder`.
 void write_summary(const AnswerRecords& answers, const std::string& folder);
 
 }  // namespace genio

@@ -38,7 +38,9 @@ std::string plot(const std::string& title, const std::string& x_label, const std
   const Axes axes{low[0], high[0], low[1], high[1], 70, 40, 420, 330};
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
   const auto label = [](double v, bool log) {
-    return log ? fmt::format("{:.4g}", std::pow(10, v)) : fmt::format("{:.4g}", v);
+    // What rounding leaves of zero is no number, nor is its sign.
+    const double shown = std::abs(v) < 1e-12 ? 0 : v;
+    return log ? fmt::format("{:.4g}", std::pow(10, v)) : fmt::format("{:.4g}", shown);
   };
   const double sx = log_x ? std::log10(2.0) : nice_step(high[0] - low[0]),
                sy = log_y ? (high[1] - low[1] > 2 ? 1 : std::log10(2.0))

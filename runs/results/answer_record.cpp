@@ -18,14 +18,16 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   j["time_s"] = std::isfinite(v.time_s) ? nlohmann::json(v.time_s) : nlohmann::json();
   j["label"] = v.label, j["recording"] = v.recording, j["speaker"] = v.speaker;
   j["status"] = v.status, j["message"] = v.message, j["verdict"] = v.verdict;
-  for (const char* key : {"forces_N", "sd_N", "interval90_N", "activation", "information_bits",
-                          "bound_multipliers", "estimated", "acts", "median_N", "mean_N"})
+  for (const char* key :
+       {"forces_N", "sd_N", "interval90_N", "activation", "information_bits", "bound_multipliers",
+        "estimated", "acts", "median_N", "mean_N", "max_force_N"})
     j[key] = nlohmann::json::object();
   for (const auto& c : v.muscles) {
     j["forces_N"][c.name] = c.best;
     j["sd_N"][c.name] = c.sd;
     j["interval90_N"][c.name] = {c.low, c.high};
     j["activation"][c.name] = c.best / c.maximum;
+    j["max_force_N"][c.name] = c.maximum;
     j["information_bits"][c.name] = c.information_bits;
     const std::pair<const char*, double> told[] = {
         {"acts", c.acts}, {"median_N", c.median}, {"mean_N", c.mean}};
@@ -153,7 +155,7 @@ std::optional<AnswerRecord> read_record(const std::string& line) {
   r.chi2_per_dof = number(answer, "chi2_per_dof"), r.wall_s = number(answer, "wall_s");
   r.forces_N = numbers(answer, "forces_N"), r.sd_N = numbers(answer, "sd_N");
   r.activation = numbers(answer, "activation"), r.acts = numbers(answer, "acts");
-  r.median_N = numbers(answer, "median_N");
+  r.median_N = numbers(answer, "median_N"), r.max_force_N = numbers(answer, "max_force_N");
   r.low_N = interval_ends(answer, 0), r.high_N = interval_ends(answer, 1);
   r.estimated = estimated_values(answer);
   r.registration = registration_of(answer);

@@ -22,7 +22,7 @@ struct AnswerRecord {
   std::string label, recording, speaker;
   std::string status, verdict;
   double rms_mm = 0, max_mm = 0, chi2_per_dof = 0, wall_s = 0;
-  std::map<std::string, double> forces_N, sd_N, activation, acts, median_N, low_N,
+  std::map<std::string, double> forces_N, sd_N, activation, acts, median_N, max_force_N, low_N,
       high_N;                               ///< by muscle; those of the 90 % interval
   std::map<std::string, double> estimated;  ///< other unknowns, each in its own unit
   /// How the recording was laid beside the model; NaN where the answer does not tell.
