@@ -38,18 +38,18 @@ std::string plot(const std::string& title, const std::string& x_label, const std
   const Axes axes{low[0], high[0], low[1], high[1], 70, 40, 420, 330};
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
   const auto label = [](double v, bool log) {
-    // What rounding leaves of zero is no number, nor is its sign.
-    const double shown = std::abs(v) < 1e-12 ? 0 : v;
-    return log ? fmt::format("{:.4g}", std::pow(10, v)) : fmt::format("{:.4g}", shown);
+    return fmt::format("{:.4g}", log ? std::pow(10, v) : v);
   };
   const double sx = log_x ? std::log10(2.0) : nice_step(high[0] - low[0]),
                sy = log_y ? (high[1] - low[1] > 2 ? 1 : std::log10(2.0))
                           : nice_step(high[1] - low[1]);
-  for (double v = std::ceil(low[0] / sx) * sx; v <= high[0]; v += sx) {
+  for (int k = int(std::ceil(low[0] / sx)); k * sx <= high[0]; ++k) {
+    const double v = k * sx;
     svg.line(axes.px(v), axes.top, axes.px(v), axes.top + axes.height, {"#eee"});
     svg.text(axes.px(v), axes.top + axes.height + 16, label(v, log_x), 11, "middle", "#777");
   }
-  for (double v = std::ceil(low[1] / sy) * sy; v <= high[1]; v += sy) {
+  for (int k = int(std::ceil(low[1] / sy)); k * sy <= high[1]; ++k) {
+    const double v = k * sy;
     svg.line(axes.left, axes.py(v), axes.left + axes.width, axes.py(v), {"#eee"});
     svg.text(axes.left - 6, axes.py(v) + 4, label(v, log_y), 11, "end", "#777");
   }
