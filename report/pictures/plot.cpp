@@ -38,18 +38,19 @@ std::string plot(const std::string& title, const std::string& x_label, const std
   const Axes axes{low[0], high[0], low[1], high[1], 70, 40, 420, 330};
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
   const auto label = [](double v, bool log) {
-    return fmt::format("{:.4g}", log ? std::pow(10, v) : v);
+    return fmt::format("{:.4g}", log ? std::pow(10, v) : v + 0.0);  // of -0 it makes 0
   };
   const double sx = log_x ? std::log10(2.0) : nice_step(high[0] - low[0]),
                sy = log_y ? (high[1] - low[1] > 2 ? 1 : std::log10(2.0))
                           : nice_step(high[1] - low[1]);
-  for (int k = int(std::ceil(low[0] / sx)); k * sx <= high[0]; ++k) {
-    const double v = k * sx;
+  const double first_x = std::ceil(low[0] / sx), first_y = std::ceil(low[1] / sy);  // in steps
+  for (int k = 0; (first_x + k) * sx <= high[0]; ++k) {
+    const double v = (first_x + k) * sx;
     svg.line(axes.px(v), axes.top, axes.px(v), axes.top + axes.height, {"#eee"});
     svg.text(axes.px(v), axes.top + axes.height + 16, label(v, log_x), 11, "middle", "#777");
   }
-  for (int k = int(std::ceil(low[1] / sy)); k * sy <= high[1]; ++k) {
-    const double v = k * sy;
+  for (int k = 0; (first_y + k) * sy <= high[1]; ++k) {
+    const double v = (first_y + k) * sy;
     svg.line(axes.left, axes.py(v), axes.left + axes.width, axes.py(v), {"#eee"});
     svg.text(axes.left - 6, axes.py(v) + 4, label(v, log_y), 11, "end", "#777");
   }
