@@ -39,8 +39,7 @@ double number_or(const TomlReader& file, const toml::table& in, const char* key,
 bool flag_or(const TomlReader& file, const toml::table& in, const char* key, bool fallback) {
   const auto* node = in.get(key);
   if (!node) return fallback;
-  if (!node->is_boolean()) file.fail(*node, fmt::format("'{}' must be true or false", key));
-  return **node->as_boolean();
+  return file.truth(*node, key);
 }
 
 /// The known commands by their maxima; "GGP" speaks of both sides.

@@ -53,6 +53,10 @@ class TomlReader {
       fail(node, fmt::format("'{}' must be a finite number", key));
     return *v;
   }
+  bool truth(const toml::node& node, const std::string& key) const {
+    if (!node.is_boolean()) fail(node, fmt::format("'{}' must be true or false", key));
+    return **node.as_boolean();
+  }
   std::string text(const toml::table& in, const std::string& key) const {
     const auto* node = in.get(key);
     if (!node) fail(in, fmt::format("'{}' is missing", key));

@@ -15,13 +15,13 @@ namespace {
 
 using Acts = std::vector<bool>;
 
-constexpr int most_weighed = 1 << 9;  // choices, all of which are weighed
-constexpr int sweeps = 60;            // of the Markov chain
-constexpr double least_log = -11;     // of a state that counts, below the likeliest
-constexpr size_t most_states = 400;   // all of which are sampled
-constexpr size_t most_others = 100;   // drawn of the rest
-constexpr int least_samples = 16;     // of a state
-constexpr int left_out = 12;          // samples left out of each
+constexpr size_t few = 8;            // unknowns, all choices of which are weighed
+constexpr int sweeps = 60;           // of the Markov chain
+constexpr double least_log = -11;    // of a state that counts, below the likeliest
+constexpr size_t most_states = 400;  // all of which are sampled
+constexpr size_t most_others = 100;  // drawn of the rest
+constexpr int least_samples = 16;    // of a state
+constexpr int left_out = 12;         // samples left out of each
 
 /// log of the half-normal's integral over [0, length].
 double log_half_normal(double sd, double length) {
@@ -82,7 +82,7 @@ class Weights {
     if (!which.empty() && factor.info() != Eigen::Success)
       log = -std::numeric_limits<double>::infinity();
     const Vector centre = which.empty() ? Vector() : Vector(factor.solve(pull));
-    const BoxGaussian g = about(centre, h, density_.lower(which), density_.upper(which));
+    BoxGaussian g = about(centre, h, density_.lower(which), density_.upper(which));
     if (!which.empty()) log += pull.dot(g.mode) - 0.5 * g.mode.dot(h * g.mode);
     return g;
   }
@@ -212,8 +212,7 @@ void visit(Weights& weights, const RestBelief& belief, const Acts& all) {
 std::vector<ActingState> acting_states(const QuadraticDensity& density, const RestBelief& belief) {
   Weights weights(density, belief);
   const Acts all(size_t(belief.slab.size()), true);
-  const size_t open = weights.resting().size();
-  if (open < 9 && (size_t(1) << open) * weights.widths() <= most_weighed) weigh_all(weights, all);
+  if (weights.resting().size() <= few) weigh_all(weights, all);
   else visit(weights, belief, all);
   return weights.likeliest();
 }

@@ -50,8 +50,8 @@ struct WeightedSamples {
 };
 
 /// About `count` samples of all states: of the likeliest, and of some of the others by their
-/// weights. Unlikely states get a few as well, so that what is said of
-/// a muscle that hardly acts is more than noise. What rests is exactly 0.
+/// weights. Unlikely states get a few as well, so that what is said of a muscle that hardly acts is
+/// more than noise. What rests is exactly 0.
 WeightedSamples sample(const QuadraticDensity& density, const RestBelief& belief,
                        const std::vector<ActingState>& states, int count);
 

@@ -55,20 +55,25 @@ QuadraticDensity quadratic(const ObjectivePoint& p, const PriorTerms& prior,
 /// alike on both sides. What EMG tells is told of the force itself.
 void spread_forces(const std::vector<Unknown>& unknowns, const PriorTerms& prior, double sd,
                    const ActingPosterior& posterior, Matrix& samples) {
+  // Rows of the samples, those of a muscle's sides together.
+  std::vector<std::vector<Eigen::Index>> muscles;
+  std::map<std::string, size_t> at;
+  for (size_t f = 0; f < posterior.which.size(); ++f) {
+    const Eigen::Index i = posterior.which[f];
+    if (prior.effort[i] == 0) continue;
+    const auto [it, fresh] =
+        at.try_emplace(bilateral_name(unknowns[size_t(i)].name), muscles.size());
+    if (fresh) muscles.emplace_back();
+    muscles[it->second].push_back(Eigen::Index(f));
+  }
   std::mt19937_64 random(20260102);
   std::normal_distribution<double> normal(0, sd);
-  std::map<std::string, double> factor;
-  for (Eigen::Index k = 0; k < samples.cols(); ++k) {
-    factor.clear();
-    for (size_t f = 0; f < posterior.which.size(); ++f) {
-      const Eigen::Index i = posterior.which[f];
-      if (prior.effort.size() == 0 || prior.effort[i] == 0) continue;
-      const auto [it, fresh] = factor.try_emplace(bilateral_name(unknowns[size_t(i)].name), 0);
-      if (fresh) it->second = std::exp(normal(random));
-      double& z = samples(Eigen::Index(f), k);
-      z = std::min(prior.upper[i], z * it->second);
+  for (Eigen::Index k = 0; k < samples.cols(); ++k)
+    for (const auto& rows : muscles) {
+      const double factor = std::exp(normal(random));
+      for (Eigen::Index f : rows)
+        samples(f, k) = std::min(prior.upper[posterior.which[size_t(f)]], factor * samples(f, k));
     }
-  }
 }
 
 }  // namespace

@@ -11,16 +11,12 @@
 #include "report/answers/answer_table.hpp"
 #include "report/pictures/svg.hpp"
 #include "runs/results/answer_record.hpp"
+#include "runs/results/csv_text.hpp"
 
 namespace genio {
 namespace {
 
 constexpr const char* red = "#c8443a";
-
-/// Empty where it is not known.
-std::string known(double value) {
-  return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string();
-}
 
 /// Blue for what surely acts, paler for what may rest.
 std::string shade(double acts) {
@@ -121,9 +117,9 @@ void write_report(const Model& model, const AnswerView& v, int frame, const std:
   write_text(base + ".json", answer_json(v, frame, 2) + "\n");
   std::string csv = "muscle,force_N,max_force_N,sd_N,low90_N,high90_N,acts,median_N,mean_N\n";
   for (const auto& c : v.muscles)
-    csv +=
-        fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{}\n", c.name, c.best, c.maximum,
-                    c.sd, c.low, c.high, known(c.acts), known(c.median), known(c.mean));
+    csv += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{}\n", c.name, c.best,
+                       c.maximum, c.sd, c.low, c.high, csv_number(c.acts, 6),
+                       csv_number(c.median, 6), csv_number(c.mean, 6));
   write_text(base + ".csv", csv);
 }
 

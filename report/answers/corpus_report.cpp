@@ -86,11 +86,6 @@ std::set<std::string> muscles_of(const CorpusResults& results) {
   return muscles;
 }
 
-std::string value_of(const std::map<std::string, double>& by_muscle, const std::string& muscle) {
-  const auto it = by_muscle.find(muscle);
-  return it == by_muscle.end() ? "" : csv_number(it->second, 5);
-}
-
 /// The row of a planned frame; without an answer it is open, and its numbers are empty.
 std::string frame_row(const PlannedRecording& r, int frame, const AnswerRecord* a,
                       const std::set<std::string>& muscles) {
@@ -108,7 +103,7 @@ std::string frame_row(const PlannedRecording& r, int frame, const AnswerRecord* 
   for (const std::string& m : muscles)
     for (const auto* told :
          {&a->activation, &a->forces_N, &a->sd_N, &a->acts, &a->median_N, &a->low_N, &a->high_N})
-      row += "," + value_of(*told, m);
+      row += "," + csv_number(*told, m, 5);
   return row + "\n";
 }
 

@@ -80,7 +80,7 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
       const std::string& name = muscles[m];
       csv += fmt::format(",{:.5g},{:.5g}", value(a.forces_N, name), value(a.sd_N, name));
       for (const auto* told : {&a.acts, &a.median_N, &a.low_N, &a.high_N})
-        csv += "," + (told->contains(name) ? csv_number(told->at(name), 5) : "");
+        csv += "," + csv_number(*told, name, 5);
       const auto middle = a.median_N.find(name), most = a.max_force_N.find(name);
       const bool told = middle != a.median_N.end() && most != a.max_force_N.end();
       series[m].points.emplace_back(

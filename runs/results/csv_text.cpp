@@ -17,4 +17,10 @@ std::string csv_number(double number, int digits) {
   return std::isnan(number) ? "" : fmt::format("{:.{}g}", number, digits);
 }
 
+std::string csv_number(const std::map<std::string, double>& by_name, const std::string& name,
+                       int digits) {
+  const auto it = by_name.find(name);
+  return it == by_name.end() ? "" : csv_number(it->second, digits);
+}
+
 }  // namespace genio

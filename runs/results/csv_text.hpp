@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 
 namespace genio {
@@ -8,5 +9,9 @@ std::string csv_field(const std::string& text);
 
 /// Empty where it is not known.
 std::string csv_number(double number, int digits);
+
+/// That of a name; empty where it has none.
+std::string csv_number(const std::map<std::string, double>& by_name, const std::string& name,
+                       int digits);
 
 }  // namespace genio

@@ -14,10 +14,8 @@ void EffortTerm::add_rows(const std::vector<Unknown>& unknowns, PriorRows& rows)
 EffortTerm EffortTerm::read(const TomlReader& file) {
   EffortTerm term;
   term.effort_sd = positive(file, file.root(), "effort_sd", term.effort_sd);
-  if (const auto* node = file.root().get("muscles_rest")) {
-    if (!node->is_boolean()) file.fail(*node, "'muscles_rest' must be true or false");
-    term.muscles_rest = **node->as_boolean();
-  }
+  if (const auto* node = file.root().get("muscles_rest"))
+    term.muscles_rest = file.truth(*node, "muscles_rest");
   return term;
 }
 
