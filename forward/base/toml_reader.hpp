@@ -25,15 +25,14 @@ class TomlReader {
     try {
       root_ = toml::parse(text, path_);
     } catch (const toml::parse_error& e) {
-      throw InputError(fmt::format("{}:{}: {}", path_, e.source().begin.line,
-                                   one_line(std::string(e.description()))));
+      throw InputError(fmt::format("{}:{}: {}", path_, e.source().begin.line, e.description()));
     }
   }
   const toml::table& root() const { return root_; }
   const std::string& path() const { return path_; }
 
   [[noreturn]] void fail(const toml::node& at, const std::string& what) const {
-    throw InputError(fmt::format("{}:{}: {}", path_, at.source().begin.line, one_line(what)));
+    throw InputError(fmt::format("{}:{}: {}", path_, at.source().begin.line, what));
   }
   const toml::table& table(const toml::table& in, const std::string& key) const {
     const auto* node = in.get(key);
@@ -71,13 +70,6 @@ class TomlReader {
   }
 
  private:
-  /// Keys and texts may hold line ends, and so do messages of toml++ that quote them.
-  static std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; }, ' ');
-    return text;
-  }
-
   std::string path_;
   toml::table root_;
 };

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace genio {
 
@@ -22,7 +23,15 @@ using Forces = Eigen::VectorXd;
 /// line or field and what was expected. The command line turns it into exit status 2.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(std::string reason) : std::runtime_error(one_line(std::move(reason))) {}
+
+ private:
+  /// Names and keys that a reason quotes may hold line ends.
+  static std::string one_line(std::string text) {
+    for (char& c : text)
+      if (c >= 0 && c < ' ') c = ' ';
+    return text;
+  }
 };
 
 /// Position of node `a` [m].

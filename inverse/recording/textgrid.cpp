@@ -116,20 +116,13 @@ TimedLabel point(Values& values) {
   return result;
 }
 
-/// Names stand in messages.
-std::string one_line(std::string name) {
-  for (char& c : name)
-    if (c == '\n' || c == '\r') c = ' ';
-  return name;
-}
-
 TextGridTier tier(Values& values) {
   TextGridTier result;
   const std::string kind = values.text("the class of a tier");
   if (kind != "IntervalTier" && kind != "TextTier")
     values.fail(fmt::format("class {}: expected IntervalTier or TextTier", in_quotes(kind)));
   result.points = kind == "TextTier";
-  result.name = one_line(values.text("the name of a tier"));
+  result.name = values.text("the name of a tier");
   values.number("the start of a tier [s]"), values.number("the end of a tier [s]");
   const int size = values.count("the number of a tier's labels");
   for (int i = 0; i < size; ++i)
