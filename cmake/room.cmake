@@ -17,6 +17,7 @@ target_compile_options(genio_flags INTERFACE ${GENIO_ARCH_FLAG})
 if(GENIO_FUZZ)
   target_compile_options(genio_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined
                          -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+                         -fsanitize-coverage-ignorelist=${CMAKE_CURRENT_LIST_DIR}/fuzz_ignore.txt
                          -Wno-unknown-warning-option)
   target_link_options(genio_flags INTERFACE -fsanitize=address,undefined)
 elseif(GENIO_SANITIZE)

@@ -1,11 +1,13 @@
 // Models, surfaces, commands and observations.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "discrepancy/conditions/observations.hpp"
 #include "forward/anatomy/grenoble_files.hpp"
+#include "forward/geometry/box_mesh.hpp"
 #include "forward/geometry/vtk_io.hpp"
 #include "forward/motion/commands_over_time.hpp"
 #include "tests/forward/small_model.hpp"
@@ -16,11 +18,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The files of a small model, by name.
+/// A model of two elements: what is read with it is built a million times.
+ModelDescription two_elements() {
+  ModelDescription d = small_block();
+  d.mesh = box_mesh({0.01, 5e-3, 5e-3}, {2, 1, 1});  // nodes by x, then y, then z
+  d.supports.assign(12, Support::free);
+  std::fill_n(d.supports.begin(), 6, Support::fixed);
+  d.muscles[0].fibres = {{{6, {}}, {7, {}}, {8, {}}}};
+  d.muscles[1].fibres = {{{0, {}}, {6, {}}}, {{-1, Vec3(0.03, 0.01, 0.03)}, {11, {}}}};
+  for (Muscle& muscle : d.muscles) muscle.elements = {0, 1};
+  d.landmarks = {6, 7, 8};
+  d.midsagittal = {3, 6, 7, 8, 11};
+  for (Vec3& v : d.palate->vertices) v[2] -= 5e-3;
+  return d;
+}
+
+/// The files of that model, by name.
 std::map<std::string, std::string> model_files() {
   std::string folder = (fs::temp_directory_path() / "genio-seed-XXXXXX").string();
   if (!mkdtemp(folder.data())) throw std::runtime_error(folder + ": cannot be made");
-  write_description(small_block(), folder);
+  write_description(two_elements(), folder);
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::ifstream in(entry.path(), std::ios::binary);
