@@ -25,7 +25,18 @@ struct Outcome {
   bool refused = false, explained = false;
   std::string said;  ///< the refusal, or the remarks
   Answer answer = {};
+  std::vector<ContourPoint> placed = {};  ///< points of the first frame where registered
+  double place_sd = 0;                    ///< the stated one, along an axis [m]
 };
+
+/// Distance of the placed points from where they were on the model, root mean square [m].
+std::optional<double> misplaced(const Outcome& o, const std::vector<Vec2>& truth) {
+  if (o.placed.empty() || o.placed.size() != truth.size()) return std::nullopt;
+  double sum = 0;
+  for (size_t k = 0; k < truth.size(); ++k)
+    sum += (Vec2(o.placed[k].position[0], o.placed[k].position[2]) - truth[k]).squaredNorm();
+  return std::sqrt(sum / double(truth.size()));
+}
 
 /// Read, registered and its first frame inverted, as `genio invert` does.
 Outcome invert(const Model& model, WrittenSession w, const std::string& folder,
@@ -43,11 +54,13 @@ Outcome invert(const Model& model, WrittenSession w, const std::string& folder,
         [&](const std::string& remark) { outcome.said += remark + "\n"; });
     const ContourFrame& frame = m.frames.front();
     outcome.said += frame.note;
+    outcome.placed = frame.points;
     const Target target = make_target(model, frame, m.noise);
     if (target.empty()) return outcome;
     Prior prior;
     prior.head_pose = m.head_pose;
     InferOptions options;
+    if (m.head_pose) outcome.place_sd = m.head_pose->shift_sd;
     if (m.head_pose) options.model_error.efficacy_sd = ModelError::another_speaker;
     outcome.answer = infer_from_starts(model, target, prior, ws, options);
     outcome.explained = outcome.answer.status == InferStatus::converged &&
@@ -78,7 +91,8 @@ Json run_recordings(const BenchOptions& o, const Progress& progress) {
                                                         {Device::articulograph, "articulograph"},
                                                         {Device::getcontours, "getcontours"},
                                                         {Device::table, "table"}};
-  int good_refused = 0, good_explained = 0, spoiled = 0, spoiled_explained = 0, unnamed = 0;
+  int good_refused = 0, good_explained = 0, spoiled = 0, spoiled_explained = 0, unnamed = 0,
+      unnamed_harmed = 0;
   Json refusals = Json::array(), missed = Json::array();
   std::map<std::string, CalibrationCount> truths;
   std::map<std::string, std::array<int, 3>> kinds;  // cases, explained, unnamed
@@ -101,9 +115,17 @@ Json run_recordings(const BenchOptions& o, const Progress& progress) {
     ++spoiled, spoiled_explained += outcome.explained, unnamed += silent;
     auto& kind = kinds[spoil.name];
     ++kind[0], kind[1] += outcome.explained, kind[2] += silent;
-    if (silent)
-      missed.push_back(
-          {{"session", k}, {"device", k % 5}, {"spoil", spoil.name}, {"said", outcome.said}});
+    if (silent) {
+      Json entry = {
+          {"session", k}, {"device", k % 5}, {"spoil", spoil.name}, {"said", outcome.said}};
+      const auto off = misplaced(outcome, bad.frames.front());
+      // Within twice what the answer says of its place the spoiling did no harm.
+      const bool harmed = !off || *off > 2 * std::sqrt(2.0) * outcome.place_sd;
+      if (off) entry["place_off_mm"] = 1e3 * *off;
+      entry["place_sd_mm"] = 1e3 * outcome.place_sd, entry["harmed"] = harmed;
+      unnamed_harmed += harmed;
+      missed.push_back(std::move(entry));
+    }
     if (progress)
       progress(fmt::format("{:>4}  {:<24} {}", k, spoil.name,
                            outcome.refused     ? "refused"
@@ -122,6 +144,7 @@ Json run_recordings(const BenchOptions& o, const Progress& progress) {
           {"spoiled", spoiled},
           {"spoiled_explained", spoiled_explained},
           {"spoiled_unnamed", unnamed},
+          {"spoiled_unnamed_and_misplaced", unnamed_harmed},
           {"by_kind", by_kind},
           {"intervals", intervals},
           {"refusals", refusals},
