@@ -21,8 +21,13 @@ TriangleSurface sheet(int rows, int columns, bool around,
     for (int c = 0; c < columns; ++c) {
       const int c1 = around ? (c + 1) % columns : c + 1;
       const int a = r * wide + c, b = r * wide + c1, d = a + wide, e = b + wide;
-      s.triangles.push_back({a, b, e});
-      s.triangles.push_back({a, e, d});
+      if (!around && 2 * c < columns) {  // diagonals mirror each other, left and right
+        s.triangles.push_back({a, b, d});
+        s.triangles.push_back({b, e, d});
+      } else {
+        s.triangles.push_back({a, b, e});
+        s.triangles.push_back({a, e, d});
+      }
     }
   return s;
 }

@@ -7,6 +7,7 @@ namespace genio {
 struct SoftSpring {
   double value = 0, slope = 0, curvature = 0;
 
+  SoftSpring(double v, double s, double c) : value(v), slope(s), curvature(c) {}
   SoftSpring(double u, double soft) {
     if (u <= 0) return;
     if (u < soft) value = u * u * u / (6 * soft), slope = u * u / (2 * soft), curvature = u / soft;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "forward/geometry/closest_point.hpp"
+#include "forward/geometry/surfaces/closest_point.hpp"
 #include "inverse/target/moved_target.hpp"
 
 namespace genio {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "forward/geometry/closest_point.hpp"
+#include "forward/geometry/surfaces/closest_point.hpp"
 
 namespace genio {
 

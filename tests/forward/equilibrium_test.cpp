@@ -44,7 +44,7 @@ TEST(Equilibrium, FollowsAnOpeningJawWithoutLoads) {
     Workspace ws(m);
     const auto e = solve_equilibrium(m, default_parameters(m), m.rest, ws);
     ASSERT_TRUE(e) << angle << ": " << e.message;
-    EXPECT_EQ(e.load_steps, 0) << angle;
+    EXPECT_LE(e.load_steps, 2) << angle;
     if (angle == 0) {
       EXPECT_LT((e.x - m.rest).cwiseAbs().maxCoeff(), 1e-9);
       continue;

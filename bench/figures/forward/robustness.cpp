@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "bench/problems/clock.hpp"
+#include "bench/problems/densest_penetration.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
@@ -31,7 +33,9 @@ bool inverted(const Model& m, const Equilibrium& e) {
 }
 
 Json run_robustness(const BenchOptions& o, const Progress& progress) {
-  const Model m = read_model(o.model);
+  const ModelDescription description = read_description(o.model);
+  const Model m = build_model(description, o.model);
+  const DensestPenetration penetration(description);
   const int count = o.sample > 0 ? o.sample : 500;
   std::mt19937 bits(2026);
   Workspace ws(m);
@@ -40,6 +44,7 @@ Json run_robustness(const BenchOptions& o, const Progress& progress) {
   int converged = 0, silent = 0, bad = 0, restarted = 0, agreed = 0;
   std::vector<double> time;
   std::map<std::string, int> reasons;
+  std::map<std::string, std::vector<double>> depths;  // by bone [mm]
   Json others = Json::array();
   for (int i = 0; i < count; ++i) {
     const Parameters p = random_forces(m, bits);
@@ -55,6 +60,7 @@ Json run_robustness(const BenchOptions& o, const Progress& progress) {
       continue;
     }
     ++converged;
+    for (const auto& [bone, depth] : penetration(e.x)) depths[bone].push_back(1e3 * depth);
     // Again from the equilibrium of forces 10 % smaller.
     const Equilibrium near =
         solve_equilibrium(m, 0.9 * p + 0.1 * default_parameters(m), e.x, ws, options);
@@ -70,7 +76,14 @@ Json run_robustness(const BenchOptions& o, const Progress& progress) {
                         {"energies_J", {e.energy, again.energy}},
                         {"residuals", {e.residual, again.residual}}});
   }
+  Json deepest;
+  for (const auto& [bone, depth] : depths)
+    deepest[bone] = {{"median", median(depth)},
+                     {"most", *std::max_element(depth.begin(), depth.end())},
+                     {"over_0.1_mm",
+                      std::count_if(depth.begin(), depth.end(), [](double d) { return d > 0.1; })}};
   return {{"model", m.name},
+          {"penetration_mm", deepest},
           {"cases", count},
           {"converged", converged},
           {"converged_fraction", double(converged) / count},
@@ -88,7 +101,9 @@ Json run_robustness(const BenchOptions& o, const Progress& progress) {
 
 Benchmark robustness_bench() {
   return {.name = "robustness",
-          .about = "Equilibria under random force vectors, from rest and from a neighbour",
+          .about =
+              "Equilibria under random force vectors, from rest and from a neighbour; depth in the "
+              "bones",
           .options = {{"--sample", "random force vectors (500)"}},
           .run = run_robustness};
 }

@@ -24,17 +24,19 @@ Contact::Contact(std::string name, std::shared_ptr<const ContactSurface> surface
 
 double Contact::energy(const Positions& x, EffectParameters p) const {
   double e = 0;
-  each_touching(*surface_, x, jaw(p), [&](const ContactNode& c, const auto&, double depth) {
-    e += p[0] * c.area * contact_spring(depth).value;
+  each_touching(*surface_, x, jaw(p), [&](const Quad&, const TouchingPoint& t, const auto&) {
+    e += p[0] * t.point->area * contact_spring(t.depth).value;
   });
   return e;
 }
 
 void Contact::add_force(const Positions& x, EffectParameters p, Forces& f) const {
-  each_touching(*surface_, x, jaw(p), [&](const ContactNode& c, const auto& surface, double depth) {
-    f.segment<3>(3 * c.node) += p[0] * c.area * contact_spring(depth).slope *
-                                surface.sample(node_position(x, c.node)).gradient;
-  });
+  each_touching(*surface_, x, jaw(p),
+                [&](const Quad& nodes, const TouchingPoint& t, const PlacedSurface& placed) {
+                  const double pressure = p[0] * contact_spring(t.depth).slope;
+                  spread(nodes, *t.point, pressure * t.point->area * placed.sample(t.at).gradient,
+                         f);
+                });
 }
 
 void Contact::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k) const {
@@ -43,41 +45,48 @@ void Contact::add_stiffness(const Positions& x, EffectParameters p, Stiffness& k
 
 void Contact::add_step_stiffness(const Positions& x, const LinearStep& led, EffectParameters p,
                                  Stiffness& k) const {
-  each_touching(*surface_, x, jaw(p), [&](const ContactNode& c, const auto& surface, double depth) {
-    const auto s = surface.sample(node_position(x, c.node));
-    const auto before = surface.sample(node_position(led.from, c.node));
-    const SoftSpring spring = contact_spring(depth),
-                     was = contact_spring(c.clearance - before.value);
-    const double slope = std::max(
-        0.0, was.slope - was.curvature * before.gradient.dot(node_position(led.step, c.node)));
-    k.add(c.node, c.node,
-          p[0] * c.area *
-              (spring.curvature * s.gradient * s.gradient.transpose() - slope * s.hessian));
-  });
+  each_touching_face(
+      *surface_, x, jaw(p),
+      [&](const ContactFace& face, const auto& touching, const PlacedSurface& placed) {
+        FaceStiffness sum;
+        for (const TouchingPoint& t : touching) {
+          const auto& w = t.point->weight;
+          const auto s = placed.sample(t.at),
+                     before = placed.sample(blend(led.from, face.nodes, w));
+          const SoftSpring spring = contact_spring(t.depth),
+                           was = contact_spring(t.point->clearance - before.value);
+          const double slope = std::max(
+              0.0, was.slope - was.curvature * before.gradient.dot(blend(led.step, face.nodes, w)));
+          sum.add(*t.point,
+                  p[0] * t.point->area *
+                      (spring.curvature * s.gradient * s.gradient.transpose() - slope * s.hessian));
+        }
+        sum.add_to(face.nodes, k);
+      });
 }
 
 void Contact::add_force_derivative(const Positions& x, EffectParameters p, int k,
                                    Forces& df) const {
-  each_touching(*surface_, x, jaw(p), [&](const ContactNode& c, const auto& surface, double depth) {
-    const SoftSpring spring = contact_spring(depth);
-    const Vec3 at = node_position(x, c.node), normal = surface.sample(at).gradient;
-    if (k == 0) {
-      df.segment<3>(3 * c.node) += c.area * spring.slope * normal;
-      return;
-    }
-    const auto [distance, gradient] = surface.by_jaw(at, k == jaw_angle);
-    df.segment<3>(3 * c.node) +=
-        p[0] * c.area * (spring.slope * gradient - spring.curvature * distance * normal);
-  });
+  each_touching(*surface_, x, jaw(p),
+                [&](const Quad& nodes, const TouchingPoint& t, const PlacedSurface& placed) {
+                  const SoftSpring spring = contact_spring(t.depth);
+                  const Vec3 normal = placed.sample(t.at).gradient;
+                  if (k == 0)
+                    return spread(nodes, *t.point, t.point->area * spring.slope * normal, df);
+                  const auto [distance, gradient] = placed.by_jaw(t.at, k == jaw_angle);
+                  spread(nodes, *t.point,
+                         p[0] * t.point->area *
+                             (spring.slope * gradient - spring.curvature * distance * normal),
+                         df);
+                });
 }
 
 double Contact::step_limit(const Positions& x, const Positions& along, EffectParameters p) const {
-  const PlacedSurface surface(*surface_, jaw(p));
+  const PlacedSurface placed(*surface_, jaw(p));
   double t = 1.0;
-  for (const auto& c : surface_->nodes) {
+  for (const int n : surface_->nodes) {
     const auto gap_at = [&](double s) {
-      return surface.value(node_position(x, c.node) + s * node_position(along, c.node)) -
-             c.clearance;
+      return placed.rough(node_position(x, n) + s * node_position(along, n));
     };
     const double deepest = std::min(-reach, 2 * gap_at(0));
     while (t > 1e-3 && gap_at(t) < deepest) t *= 0.7;
@@ -87,8 +96,8 @@ double Contact::step_limit(const Positions& x, const Positions& along, EffectPar
 
 double Contact::max_penetration(const Positions& x, EffectParameters p) const {
   double deepest = 0;
-  each_touching(*surface_, x, jaw(p), [&](const ContactNode&, const auto&, double depth) {
-    deepest = std::max(deepest, depth);
+  each_touching(*surface_, x, jaw(p), [&](const Quad&, const TouchingPoint& t, const auto&) {
+    deepest = std::max(deepest, t.depth - std::max(0.0, t.point->clearance));
   });
   return deepest;
 }

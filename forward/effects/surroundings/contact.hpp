@@ -11,7 +11,8 @@ namespace genio {
 
 /// Penalty contact with a rigid surface.
 ///
-/// E = sum_a A_a k phi(g_a), g_a = distance(x_a) - clearance_a, phi(g) = 0 for g >= 0. The spring
+/// E = sum_q A_q k phi(g_q) over points q of the tongue's faces, g_q = distance(x_q) - clearance_q,
+/// phi(g) = 0 for g >= 0. The spring
 /// stiffens over the first 0.05 mm (phi'' rises linearly from 0 to 1) and is linear beyond, so
 /// force and stiffness are continuous. A surface that belongs to an opening jaw moves with it.
 /// Parameter: stiffness k [Pa/m], pressure per depth.
@@ -36,7 +37,9 @@ class Contact final : public ContactPotential, public NewtonAid {
   /// No node goes deeper than 4 mm in one step, unless it is deeper already.
   double step_limit(const Positions& x, const Positions& along, EffectParameters p) const override;
 
-  double distance(const Vec3& point) const override { return surface_->field->value(point); }
+  double distance(const Vec3& point) const override {
+    return surface_->field->exact().face()(point);
+  }
   double max_penetration(const Positions& x, EffectParameters p) const override;
 
  private:

@@ -27,23 +27,29 @@ std::vector<ParameterName> ContactDamping::borrows() const {
 void ContactDamping::add_viscous_force(const Positions& x, const Vector& v, EffectParameters p,
                                        Forces& f) const {
   if (p[0] == 0) return;
-  each_touching(*surface_, x, damped_jaw(p),
-                [&](const ContactNode& c, const auto& surface, double depth) {
-                  const Vec3 normal = surface.sample(node_position(x, c.node)).gradient;
-                  f.segment<3>(3 * c.node) -= strength(p) * c.area * contact_spring(depth).slope *
-                                              normal.dot(node_position(v, c.node)) * normal;
-                });
+  each_touching(
+      *surface_, x, damped_jaw(p),
+      [&](const Quad& nodes, const TouchingPoint& t, const PlacedSurface& placed) {
+        const Vec3 normal = placed.sample(t.at).gradient;
+        const double rate = normal.dot(blend(v, nodes, t.point->weight));
+        spread(nodes, *t.point,
+               -strength(p) * t.point->area * contact_spring(t.depth).slope * rate * normal, f);
+      });
 }
 
 void ContactDamping::add_damping(const Positions& x, const Vector&, EffectParameters p,
                                  Stiffness& damping) const {
   if (p[0] == 0) return;
-  each_touching(
-      *surface_, x, damped_jaw(p), [&](const ContactNode& c, const auto& surface, double depth) {
-        const Vec3 normal = surface.sample(node_position(x, c.node)).gradient;
-        damping.add(
-            c.node, c.node,
-            strength(p) * c.area * contact_spring(depth).slope * normal * normal.transpose());
+  each_touching_face(
+      *surface_, x, damped_jaw(p),
+      [&](const ContactFace& face, const auto& touching, const PlacedSurface& placed) {
+        FaceStiffness sum;
+        for (const TouchingPoint& t : touching) {
+          const Vec3 normal = placed.sample(t.at).gradient;
+          sum.add(*t.point, strength(p) * t.point->area * contact_spring(t.depth).slope * normal *
+                                normal.transpose());
+        }
+        sum.add_to(face.nodes, damping);
       });
 }
 
@@ -51,17 +57,20 @@ void ContactDamping::add_viscous_force_slope(const Positions& x, const Vector& v
                                              EffectParameters p, const Matrix& along, Stiffness&,
                                              Matrix& df) const {
   if (p[0] == 0) return;
-  each_touching(
-      *surface_, x, damped_jaw(p), [&](const ContactNode& c, const auto& surface, double depth) {
-        const auto s = surface.sample(node_position(x, c.node));
-        const SoftSpring spring = contact_spring(depth);
-        const Vec3 &n = s.gradient, speed = node_position(v, c.node);
-        const Mat3 slope =
-            -spring.curvature * n.dot(speed) * n * n.transpose() +
-            spring.slope * (n * (s.hessian * speed).transpose() + n.dot(speed) * s.hessian);
-        df.middleRows<3>(3 * c.node) -=
-            strength(p) * c.area * slope * along.middleRows<3>(3 * c.node);
-      });
+  each_touching(*surface_, x, damped_jaw(p),
+                [&](const Quad& nodes, const TouchingPoint& t, const PlacedSurface& placed) {
+                  const auto s = placed.sample(t.at);
+                  const SoftSpring spring = contact_spring(t.depth);
+                  const auto& w = t.point->weight;
+                  const Vec3 &n = s.gradient, speed = blend(v, nodes, w);
+                  const Mat3 slope = -spring.curvature * n.dot(speed) * n * n.transpose() +
+                                     spring.slope * (n * (s.hessian * speed).transpose() +
+                                                     n.dot(speed) * s.hessian);
+                  Matrix moved = Matrix::Zero(3, along.cols());
+                  for (size_t a = 0; a < 4; ++a) moved += w[a] * along.middleRows<3>(3 * nodes[a]);
+                  moved = strength(p) * t.point->area * (slope * moved);
+                  for (size_t a = 0; a < 4; ++a) df.middleRows<3>(3 * nodes[a]) -= w[a] * moved;
+                });
 }
 
 void ContactDamping::add_viscous_force_derivative(const Positions& x, const Vector& v,
@@ -73,15 +82,17 @@ void ContactDamping::add_viscous_force_derivative(const Positions& x, const Vect
     return;
   }
   each_touching(
-      *surface_, x, damped_jaw(p), [&](const ContactNode& c, const auto& surface, double depth) {
-        const SoftSpring spring = contact_spring(depth);
-        const Vec3 at = node_position(x, c.node), normal = surface.sample(at).gradient;
-        const Vec3 speed = node_position(v, c.node);
-        const auto [distance, gradient] = surface.by_jaw(at, k == damped_jaw_angle);
-        df.segment<3>(3 * c.node) -=
-            strength(p) * c.area *
-            (-spring.curvature * distance * normal.dot(speed) * normal +
-             spring.slope * (gradient.dot(speed) * normal + normal.dot(speed) * gradient));
+      *surface_, x, damped_jaw(p),
+      [&](const Quad& nodes, const TouchingPoint& t, const PlacedSurface& placed) {
+        const SoftSpring spring = contact_spring(t.depth);
+        const Vec3 normal = placed.sample(t.at).gradient;
+        const Vec3 speed = blend(v, nodes, t.point->weight);
+        const auto [distance, gradient] = placed.by_jaw(t.at, k == damped_jaw_angle);
+        spread(nodes, *t.point,
+               -strength(p) * t.point->area *
+                   (-spring.curvature * distance * normal.dot(speed) * normal +
+                    spring.slope * (gradient.dot(speed) * normal + normal.dot(speed) * gradient)),
+               df);
       });
 }
 

@@ -5,13 +5,10 @@
 #include "forward/effects/bones/jaw_opening.hpp"
 #include "forward/effects/surroundings/contact.hpp"
 #include "forward/effects/surroundings/contact_damping.hpp"
-#include "forward/geometry/surface_field.hpp"
-#include "forward/tissue/tongue_faces.hpp"
+#include "forward/geometry/surfaces/bone_field.hpp"
 
 namespace genio {
 namespace {
-
-constexpr double deepest_overlap = 2e-3;  // at rest [m]
 
 /// With the surface of a bone ("palate").
 Effect contact(Settings& s, const Anatomy& a, const std::string& bone,
@@ -23,17 +20,8 @@ Effect contact(Settings& s, const Anatomy& a, const std::string& bone,
     throw InputError(
         fmt::format("{}: [effect.{}] needs a surface '{}' in [surfaces]", a.source, name, bone));
   const double stiffness = s.take("stiffness", 2e8), damping = s.take("damping", 0);
-  const auto field = field_about(*surface, d.mesh);
-  const auto area = nodal_areas(d.mesh, outer_faces(d.mesh, a.supports));
-  std::vector<ContactNode> nodes;
-  for (size_t n = 0; n < area.size(); ++n) {
-    const double gap = field->value(d.mesh.nodes[n]);
-    // Far behind the surface: another side of it (the floor of the mouth lies behind the pharynx).
-    if (area[n] > 0 && moves_freely(a.supports[n]) && gap > -deepest_overlap)
-      nodes.push_back({int(n), area[n], std::min(0.0, gap)});
-  }
-  const auto placed =
-      std::make_shared<const ContactSurface>(ContactSurface{field, std::move(nodes), hinge});
+  const auto placed = std::make_shared<const ContactSurface>(
+      contact_surface(bone_field(*surface, d.mesh), d.mesh, a.supports, hinge));
   const auto touch = std::make_shared<Contact>(name, placed, stiffness);
   return {.potential = touch,
           .dissipation = std::make_shared<ContactDamping>(name, placed, damping),

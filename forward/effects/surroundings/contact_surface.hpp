@@ -1,32 +1,63 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "forward/algebra/supports.hpp"
 #include "forward/base/parameter_name.hpp"
 #include "forward/effects/bones/jaw_motion.hpp"
 #include "forward/effects/parameter.hpp"
-#include "forward/geometry/distance_field.hpp"
+#include "forward/geometry/surfaces/bone_field.hpp"
 #include "forward/tissue/soft_spring.hpp"
 
 namespace genio {
 
-/// A surface node that may touch.
-struct ContactNode {
-  int node;
-  double area;       ///< surface it stands for [m^2]
-  double clearance;  ///< subtracted from the distance: below 0 where the node overlaps at rest [m]
+/// Saliva keeps tongue and bone apart [m]: Collins & Dawes (1987) measured a film of 0.07 to 0.1
+/// mm. It also covers what the spline rounds off an edge.
+constexpr double saliva_film = 1e-4;
+
+/// A point of a face that may touch, and the part of the surface that it stands for.
+struct ContactPoint {
+  std::array<double, 4> weight;  ///< of the face's nodes: bilinear shape functions
+  double area;                   ///< [m^2]
+  double
+      clearance;  ///< of the bone that it keeps [m]: the film, or less where it is nearer at rest
 };
 
-/// A rigid surface at rest and the nodes that may touch it.
+/// A face with points on a grid of 2^m by 2^n cells, row by row, edges and corners included.
+struct ContactFace {
+  Quad nodes;
+  int cells_u, cells_v;
+  std::vector<ContactPoint> points;  ///< those that never touch have no area
+};
+
+/// A point below the surface in the shape at hand.
+struct TouchingPoint {
+  const ContactPoint* point;
+  Vec3 at;       ///< [m]
+  double depth;  ///< [m], > 0
+};
+
+/// A rigid bone at rest and the tongue's faces that may touch it.
 struct ContactSurface {
   std::shared_ptr<const DistanceField> field;
-  std::vector<ContactNode> nodes;
+  std::vector<ContactFace> faces;
+  std::vector<int> nodes;              ///< of the faces, each once
+  uint64_t identity;                   ///< no two surfaces of a process have the same
   std::optional<Vec3> jaw_hinge = {};  ///< set where the surface belongs to an opening jaw [m]
 
   /// The jaw's motion, where the surface belongs to it.
   std::vector<ParameterName> borrows() const;
 };
+
+/// Points of the tongue's faces `apart` from one another (0.7 to 1.4 times that) so that no edge of
+/// the bone lies deep between them. Those that hang on supported nodes by more than half are the
+/// attachment's. What overlaps at rest may stay so; what is more than 2 mm behind the surface at
+/// rest belongs to another side of the bone and never touches.
+ContactSurface contact_surface(std::shared_ptr<const DistanceField> field, const HexMesh& mesh,
+                               const std::vector<Support>& supports, std::optional<Vec3> jaw_hinge,
+                               double apart = 0.5e-3);
 
 /// A contact surface where the jaw's angle [deg] and slide [m] put it.
 class PlacedSurface {
@@ -35,33 +66,90 @@ class PlacedSurface {
   PlacedSurface(const ContactSurface& surface, EffectParameters jaw);
 
   /// Signed distance [m], positive on the tongue's side.
-  double value(const Vec3& x) const { return field_.value(moved_ ? jaw_.back(x) : x); }
+  double value(const Vec3& x) const { return field_.value(local(x)); }
+  /// The same where it may touch, else perhaps only some larger number.
+  double value_if_touching(const Vec3& x) const { return field_.value_if_touching(local(x)); }
   DistanceSample sample(const Vec3& x) const;
+  /// The distance to within 2 mm, without filling in what is fine [m].
+  double rough(const Vec3& x) const { return field_.rough(local(x)); }
+  /// A lower bound of the value within a radius about x [m].
+  double at_least(const Vec3& x, double radius) const { return field_.at_least(local(x), radius); }
   /// How distance and its gradient change with the angle (or the slide) at x.
   std::pair<double, Vec3> by_jaw(const Vec3& x, bool angle) const;
 
  private:
+  Vec3 local(const Vec3& x) const { return moved_ ? jaw_.back(x) : x; }
+
   const DistanceField& field_;
   JawMotion jaw_;
   bool moved_ = false;
   Mat3 turn_ = Mat3::Identity();
 };
 
-/// The contact's spring at a depth [m].
+/// The contact's spring at a depth [m]: it sets in softly over 0.05 mm, and hardens 150 times over
+/// as much again, as the whole load of a tongue may rest on an edge.
 inline SoftSpring contact_spring(double depth) {
-  constexpr double soft_depth = 5e-5;  // [m]
-  return {depth, soft_depth};
+  constexpr double soft_depth = 5e-5, harder = 150;  // [m], -
+  const SoftSpring first(depth, soft_depth);
+  if (depth <= soft_depth) return first;
+  const SoftSpring second(depth - soft_depth, soft_depth);
+  return {first.value + harder * second.value, first.slope + harder * second.slope,
+          first.curvature + harder * second.curvature};
 }
 
-/// act(node, placed surface, depth) for every node below the surface.
+/// A point of a face by the weights of its nodes, in the field `x` of all nodes.
+inline Vec3 blend(const Positions& x, const Quad& nodes, const std::array<double, 4>& weight) {
+  Vec3 result = Vec3::Zero();
+  for (int a = 0; a < 4; ++a) result += weight[size_t(a)] * node_position(x, nodes[size_t(a)]);
+  return result;
+}
+
+/// A face that touches, and its touching points.
+struct TouchingFace {
+  const ContactFace* face;
+  std::vector<TouchingPoint> points;
+};
+
+/// Every face that touches in the shape `x`. Energy, force and stiffness are asked for at the same
+/// shape one after the other, so each thread remembers its latest searches.
+const std::vector<TouchingFace>& find_touching(const ContactSurface& surface, const Positions& x,
+                                               EffectParameters jaw);
+
+/// act(face, its touching points, placed surface) for every face that touches.
+template <class Act>
+void each_touching_face(const ContactSurface& surface, const Positions& x, EffectParameters jaw,
+                        Act act) {
+  const PlacedSurface placed(surface, jaw);
+  for (const TouchingFace& t : find_touching(surface, x, jaw)) act(*t.face, t.points, placed);
+}
+
+/// act(face's nodes, touching point, placed surface) for every point below the surface.
 template <class Act>
 void each_touching(const ContactSurface& surface, const Positions& x, EffectParameters jaw,
                    Act act) {
-  const PlacedSurface placed(surface, jaw);
-  for (const ContactNode& c : surface.nodes) {
-    const double depth = c.clearance - placed.value(node_position(x, c.node));
-    if (depth > 0) act(c, placed, depth);
-  }
+  each_touching_face(surface, x, jaw,
+                     [&](const ContactFace& face, const auto& points, const PlacedSurface& placed) {
+                       for (const TouchingPoint& t : points) act(face.nodes, t, placed);
+                     });
 }
+
+/// Adds a point's force to the face's nodes.
+inline void spread(const Quad& nodes, const ContactPoint& point, const Vec3& force, Forces& f) {
+  for (int a = 0; a < 4; ++a) f.segment<3>(3 * nodes[size_t(a)]) += point.weight[size_t(a)] * force;
+}
+
+/// Gathers points' stiffness over a face, so that each pair of nodes is looked up once.
+class FaceStiffness {
+ public:
+  void add(const ContactPoint& point, const Mat3& k);
+  void add_to(const Quad& nodes, Stiffness& k) const;
+
+ private:
+  std::array<Mat3, 10> pair_ = [] {
+    std::array<Mat3, 10> z;
+    z.fill(Mat3::Zero());
+    return z;
+  }();
+};
 
 }  // namespace genio

@@ -1,4 +1,4 @@
-#include "forward/geometry/closest_point.hpp"
+#include "forward/geometry/surfaces/closest_point.hpp"
 
 #include <Eigen/Dense>
 #include <Eigen/StdVector>
@@ -41,25 +41,13 @@ struct SurfaceDistance::Tree {
   std::map<std::pair<int, int>, std::pair<Vec3, int>> edge_normal;  // normal, triangles at it
   std::vector<bool> on_rim;                                         // vertices
 
-  struct Query {  // what Eigen's BVMinimize asks for
-    using Scalar = double;
-    const Tree* tree;
-    Vec3 p;
-    double best = std::numeric_limits<double>::infinity();
+  /// The closest triangle and the place on it; `near` is looked at first.
+  struct Closest {
+    double squared = std::numeric_limits<double>::infinity();
     int triangle = -1;
     std::array<double, 3> weight{};
-    double minimumOnVolume(const Eigen::AlignedBox3d& box) const {
-      return box.squaredExteriorDistance(p);
-    }
-    double minimumOnObject(int t) {
-      const auto& v = tree->surface.vertices;
-      const auto& n = tree->surface.triangles[t];
-      const auto w = closest_on_triangle(p, v[n[0]], v[n[1]], v[n[2]]);
-      const double d = (p - w[0] * v[n[0]] - w[1] * v[n[1]] - w[2] * v[n[2]]).squaredNorm();
-      if (d < best) best = d, triangle = t, weight = w;
-      return d;
-    }
   };
+  Closest closest(const Vec3& p, int near) const;
 };
 
 SurfaceDistance::SurfaceDistance(const TriangleSurface& surface) : tree_(std::make_unique<Tree>()) {
@@ -95,10 +83,41 @@ SurfaceDistance::SurfaceDistance(const TriangleSurface& surface) : tree_(std::ma
 
 SurfaceDistance::~SurfaceDistance() = default;
 
-SurfaceDistance::Foot SurfaceDistance::foot(const Vec3& p) const {
+SurfaceDistance::Tree::Closest SurfaceDistance::Tree::closest(const Vec3& p, int near) const {
+  Closest best;
+  const auto look_at = [&](int t) {
+    const auto& v = surface.vertices;
+    const auto& n = surface.triangles[size_t(t)];
+    const Vec3 &a = v[size_t(n[0])], &b = v[size_t(n[1])], &c = v[size_t(n[2])];
+    const auto w = closest_on_triangle(p, a, b, c);
+    const double d = (p - w[0] * a - w[1] * b - w[2] * c).squaredNorm();
+    if (d < best.squared) best = {d, t, w};
+  };
+  if (near >= 0) look_at(near);
+  std::array<std::pair<double, int>, 128> waiting;  // a tree over 2^63 triangles is no deeper
+  size_t count = 0;
+  waiting[count++] = {0, bvh.getRootIndex()};
+  while (count > 0) {
+    const auto [distance, index] = waiting[--count];
+    if (distance >= best.squared) continue;
+    const int *volume, *volumes, *object, *objects;
+    bvh.getChildren(index, volume, volumes, object, objects);
+    for (; object != objects; ++object) look_at(*object);
+    const size_t first = count;
+    for (; volume != volumes; ++volume) {
+      const double d = bvh.getVolume(*volume).squaredExteriorDistance(p);
+      if (d < best.squared) waiting[count++] = {d, *volume};
+    }
+    if (count == first + 2 && waiting[first].first < waiting[first + 1].first)
+      std::swap(waiting[first], waiting[first + 1]);  // the nearer one next
+  }
+  return best;
+}
+
+SurfaceDistance::Foot SurfaceDistance::foot(const Vec3& p, int& near) const {
   const Tree& t = *tree_;
-  Tree::Query query{&t, p};
-  Eigen::BVMinimize(t.bvh, query);
+  const Tree::Closest query = t.closest(p, near);
+  near = query.triangle;
   const auto& n = t.surface.triangles[query.triangle];
   const auto& v = t.surface.vertices;
   std::vector<int> touched;
@@ -119,7 +138,12 @@ SurfaceDistance::Foot SurfaceDistance::foot(const Vec3& p) const {
 }
 
 double SurfaceDistance::operator()(const Vec3& p) const {
-  const Foot f = foot(p);
+  int near = -1;
+  return (*this)(p, near);
+}
+
+double SurfaceDistance::operator()(const Vec3& p, int& near) const {
+  const Foot f = foot(p, near);
   const Vec3 off = p - f.place;
   return f.on_rim || f.normal.dot(off) >= 0 ? off.norm() : -off.norm();
 }

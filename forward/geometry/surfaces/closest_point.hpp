@@ -21,6 +21,9 @@ class SurfaceDistance {
   ~SurfaceDistance();
   /// [m]
   double operator()(const Vec3& p) const;
+  /// The same; `near` is a triangle that lies near, or -1, and becomes the closest one. Points
+  /// that follow one another are found quickly so.
+  double operator()(const Vec3& p, int& near) const;
 
   struct Foot {
     Vec3 place;  ///< of the surface's point closest to p [m]
@@ -28,7 +31,11 @@ class SurfaceDistance {
         normal;  ///< of the face, edge or vertex that it lies on, not of length 1 at the latter two
     bool on_rim;  ///< at the end of an open surface
   };
-  Foot foot(const Vec3& p) const;
+  Foot foot(const Vec3& p) const {
+    int near = -1;
+    return foot(p, near);
+  }
+  Foot foot(const Vec3& p, int& near) const;
 
  private:
   struct Tree;

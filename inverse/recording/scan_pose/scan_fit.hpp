@@ -2,7 +2,7 @@
 // A rigid motion, a scale and a shape that lay a scan onto the model's surface, found together.
 // Not for other rooms.
 
-#include "forward/geometry/closest_point.hpp"
+#include "forward/geometry/surfaces/closest_point.hpp"
 #include "inverse/recording/scan_pose/scan_registration.hpp"
 
 namespace genio {

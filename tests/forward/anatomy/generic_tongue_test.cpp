@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "forward/geometry/closest_point.hpp"
+#include "forward/geometry/surfaces/closest_point.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "tests/forward/small_model.hpp"
