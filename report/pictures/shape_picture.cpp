@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "inverse/target/tongue_line.hpp"
 #include "report/pictures/svg.hpp"
 
 namespace genio {
@@ -27,13 +26,21 @@ void draw_front(Svg& svg, const Axes& axes, const Model& m, const Positions& x,
     const Vec3 normal = Vec3(node_position(x, face[2]) - node_position(x, face[0]))
                             .cross(Vec3(node_position(x, face[3]) - node_position(x, face[1])));
     if (normal[0] > 0) continue;
-    std::vector<Vec2> outline;
+    std::vector<Eigen::Vector2d> outline;
     for (int i = 0; i < 5; ++i) {
       const Vec3 p = 1e3 * node_position(x, face[size_t(i % 4)]);
       outline.emplace_back(p[1], p[2]);
     }
     svg.polyline(axes, outline, style);
   }
+}
+
+/// The surface in the midsagittal plane as contact knows it: straight from node to node. The smooth
+/// line through the same nodes bulges beyond them where a bone bends the surface sharply.
+std::vector<Eigen::Vector2d> surface_line(const Model& m, const Positions& x) {
+  std::vector<Eigen::Vector2d> line;
+  for (const int n : m.midsagittal) line.emplace_back(x[3 * n], x[3 * n + 2]);
+  return line;
 }
 
 }  // namespace
@@ -46,9 +53,8 @@ std::string draw_shape(const Model& m, const Positions& x, const std::string& ti
     if (*surface)
       for (const auto& cut : midsagittal_cut(**surface))
         svg.polyline(side, in_mm(cut), {bone, "none", 2});
-  const TongueLine line(m);
-  svg.polyline(side, in_mm(line.sample(m.rest, 120)), {grey, "none", 2.4});
-  svg.polyline(side, in_mm(line.sample(x, 120)), {blue, "none", 2.6});
+  svg.polyline(side, in_mm(surface_line(m, m.rest)), {grey, "none", 2.4});
+  svg.polyline(side, in_mm(surface_line(m, x)), {blue, "none", 2.6});
   const Axes front = framed(svg, {-45, 45, 44, 134, 616, 44, 434, 434}, "y [mm], from the front");
   draw_front(svg, front, m, m.rest, {"#c9cdd1", "none", 1});
   draw_front(svg, front, m, x, {blue, "none", 1});

@@ -25,7 +25,7 @@ std::optional<double> rest_clearance(const DistanceField& field, const Vec3& at,
   if ((at - foot.place).dot(foot.normal.normalized()) <
       -(foot.on_rim ? field_error : deepest_overlap))
     return std::nullopt;
-  double distance = field.exact()(at, near);
+  double distance = field.exact().from(foot, at, near);
   if (distance < field_error) distance = field.value(at);
   return std::min(saliva_film, distance);
 }

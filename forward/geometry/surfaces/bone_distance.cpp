@@ -90,6 +90,10 @@ double BoneDistance::depth(const Vec3& place) const {
 
 double BoneDistance::operator()(const Vec3& p, int& near) const {
   const auto foot = face_.foot(p, near);
+  return from(foot, p, near);
+}
+
+double BoneDistance::from(const SurfaceDistance::Foot& foot, const Vec3& p, int near) const {
   const Vec3 off = p - foot.place;
   const double far = off.norm();
   const double behind = -foot.normal.normalized().dot(off);

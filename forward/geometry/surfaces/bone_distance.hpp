@@ -27,6 +27,8 @@ class BoneDistance {
     int near = -1;
     return (*this)(p, near);
   }
+  /// The same for a point whose foot is known to lie on the triangle `near`.
+  double from(const SurfaceDistance::Foot& foot, const Vec3& p, int near) const;
   /// To the surface as it was given, on whichever side and however far behind [m].
   const SurfaceDistance& face() const { return face_; }
 

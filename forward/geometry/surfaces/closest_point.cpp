@@ -41,6 +41,14 @@ struct SurfaceDistance::Tree {
   std::map<std::pair<int, int>, std::pair<Vec3, int>> edge_normal;  // normal, triangles at it
   std::vector<bool> on_rim;                                         // vertices
 
+  /// A triangle's corners, and a sphere that holds it.
+  struct Piece {
+    std::array<Vec3, 3> corner;
+    Vec3 centre;
+    double radius;
+  };
+  std::vector<Piece> pieces;
+
   /// The closest triangle and the place on it; `near` is looked at first.
   struct Closest {
     double squared = std::numeric_limits<double>::infinity();
@@ -75,6 +83,10 @@ SurfaceDistance::SurfaceDistance(const TriangleSurface& surface) : tree_(std::ma
     }
     index.push_back(int(i));
     boxes.push_back(box);
+    Tree::Piece piece{{*v[0], *v[1], *v[2]}, (*v[0] + *v[1] + *v[2]) / 3, 0};
+    for (const Vec3& c : piece.corner)
+      piece.radius = std::max(piece.radius, (c - piece.centre).norm());
+    t.pieces.push_back(piece);
   }
   for (const auto& [key, edge] : t.edge_normal)
     if (edge.second == 1) t.on_rim[key.first] = t.on_rim[key.second] = true;
@@ -86,11 +98,11 @@ SurfaceDistance::~SurfaceDistance() = default;
 SurfaceDistance::Tree::Closest SurfaceDistance::Tree::closest(const Vec3& p, int near) const {
   Closest best;
   const auto look_at = [&](int t) {
-    const auto& v = surface.vertices;
-    const auto& n = surface.triangles[size_t(t)];
-    const Vec3 &a = v[size_t(n[0])], &b = v[size_t(n[1])], &c = v[size_t(n[2])];
-    const auto w = closest_on_triangle(p, a, b, c);
-    const double d = (p - w[0] * a - w[1] * b - w[2] * c).squaredNorm();
+    const auto& [corner, centre, radius] = pieces[size_t(t)];
+    const double reach = std::sqrt(best.squared) + radius;
+    if ((p - centre).squaredNorm() >= reach * reach) return;
+    const auto w = closest_on_triangle(p, corner[0], corner[1], corner[2]);
+    const double d = (p - w[0] * corner[0] - w[1] * corner[1] - w[2] * corner[2]).squaredNorm();
     if (d < best.squared) best = {d, t, w};
   };
   if (near >= 0) look_at(near);
