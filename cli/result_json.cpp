@@ -1,6 +1,10 @@
 #include "cli/result_json.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+
+#include "inverse/recording/sensor_place.hpp"
 
 namespace genio::cli {
 namespace {
@@ -31,6 +35,13 @@ std::string info_json(const Model& m, double smallest_corner_jacobian_ratio) {
     parameter["value"] = p.info.value, parameter["unit"] = p.info.unit;
     parameter["lower"] = p.info.lower, parameter["upper"] = p.info.upper;
   }
+  for (const char* place : {"tip", "blade", "dorsum", "root"})
+    j["landmarks"][place]["behind_tip_mm"] = 1e3 * behind_tip(m, place);
+  for (const int n : m.midsagittal)
+    j["line"].push_back({{"node", n},
+                         {"x_mm", 1e3 * m.rest[3 * n]},
+                         {"z_mm", 1e3 * m.rest[3 * n + 2]},
+                         {"behind_tip_mm", 1e3 * behind_tip(m, fmt::format("node:{}", n))}});
   return j.dump();
 }
 

@@ -79,6 +79,8 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--labels", o.choice.labels, "Frames with these labels alone: a,i,u",
               {.separator = ','});
   options.add("--speaker", o.choice.speaker, "This one's frames alone, where the file has several");
+  options.add("--recording", o.choice.recording,
+              "This one's frames alone, where the file has several");
   options.add("--noise-mm", o.noise_mm,
               fmt::format("Measurement noise (by the format: {})", usual_noises()));
 }

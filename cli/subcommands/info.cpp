@@ -9,6 +9,7 @@
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
+#include "inverse/recording/sensor_place.hpp"
 
 namespace genio::cli {
 namespace {
@@ -20,6 +21,13 @@ void print_info(const Model& m, double smallest_ratio) {
   for (const auto& muscle : m.muscles)
     fmt::print("  {:<8} {:6.2f} N, {} fibres\n", muscle.name, muscle.max_force,
                muscle.fibres.size());
+  for (const char* place : {"tip", "blade", "dorsum", "root"})
+    fmt::print("  {:<8} {:.1f} mm behind the tip along the line\n", place,
+               1e3 * behind_tip(m, place));
+  fmt::print("  midsagittal line, floor to root: node (mm behind the tip)");
+  for (const int n : m.midsagittal)
+    fmt::print(" {} ({:.1f})", n, 1e3 * behind_tip(m, fmt::format("node:{}", n)));
+  fmt::print("\n");
   for (const auto& p : m.parameters)
     if (!p.is_command) fmt::print("  {} = {} {}\n", p.name.text(), p.info.value, p.info.unit);
 }

@@ -1,10 +1,12 @@
 #include "inverse/recording/session.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "inverse/recording/session_faults.hpp"
 #include "inverse/recording/session_marks.hpp"
@@ -131,6 +133,21 @@ std::string described(const Candidate& c, Content content) {
                      c.reading.options(content));
 }
 
+/// One palate does not register two heads. Files that name no speaker may be of anyone.
+void check_same_speaker(const SessionFile& target, const SessionFile& palate) {
+  const auto named = [](const SessionFile& session) {
+    std::set<std::string> names;
+    for (const ContourFrame& f : session.file.frames)
+      if (!f.points.empty() && !f.speaker.empty()) names.insert(f.speaker);
+    return names;
+  };
+  const auto whose = named(target), of = named(palate);
+  if (whose.empty() || of.empty() || std::ranges::includes(of, whose)) return;
+  throw InputError(
+      fmt::format("{}: is of speaker {}, and {} of {}: give the palate of the same head",
+                  palate.path, fmt::join(of, ", "), target.path, fmt::join(whose, ", ")));
+}
+
 /// align() that takes all marks for true.
 AlignedRecording align_by_all(const Model& model, const TongueReach& reach, SessionFile target,
                               const std::optional<SessionFile>& palate, const ReadOptions& options,
@@ -139,6 +156,7 @@ AlignedRecording align_by_all(const Model& model, const TongueReach& reach, Sess
   const ContourFile* trace = palate ? &palate->file : nullptr;
   if (trace && trace_of(*trace).empty())
     throw InputError(palate->path + ": no palate point has a value");
+  if (trace) check_same_speaker(target, *palate);
   size_t points = 0;
   for (const auto& contour : midsagittal_points(target.file)) points += contour.size();
   if (!trace && points < least_points)

@@ -57,6 +57,8 @@ struct Answer {
   std::vector<Estimate> muscles;
   std::vector<Estimate> others;           ///< parameters and head pose estimated along
   std::vector<JointForce> joint;          ///< muscles of which one acts, though each may rest
+  /// Probability that left and right are the other way round, where the shape hardly tells.
+  std::optional<double> mirrored;
   std::vector<TradeOff> unidentified;     ///< muscles the data cannot tell apart
   double weight = 1;                      ///< of this optimum among those found
   std::vector<Alternative> alternatives;  ///< the others, likeliest first; see infer_from_starts

@@ -8,6 +8,7 @@
 
 #include "inverse/posterior/box_integral.hpp"
 #include "inverse/shape/acting_posterior.hpp"
+#include "inverse/shape/mirrored.hpp"
 
 namespace genio {
 namespace {
@@ -103,8 +104,9 @@ void summarise_posterior(Objective& objective, const ObjectivePoint& point,
   const Vector& z = optimum.activations;
   const LocalPosterior narrow = local_posterior(objective, optimum);
   const auto& which = narrow.which;
-  set_estimates(objective, settled_posterior(objective, optimum, comparison, error), narrow, z,
-                answer);
+  ActingPosterior posterior = settled_posterior(objective, optimum, comparison, error);
+  answer.mirrored = mix_mirrored(objective, optimum, posterior);
+  set_estimates(objective, posterior, narrow, z, answer);
 
   std::vector<std::string> at_maximum, at_zero;
   std::vector<Eigen::Index> free;
@@ -140,8 +142,7 @@ void summarise_posterior(Objective& objective, const ObjectivePoint& point,
   answer.message =
       test.verdict == Verdict::explained
           ? double(r.size()) - used < 1
-                ? fmt::format("the shape passes through the {} values, too few to test the model",
-                              r.size())
+                ? fmt::format("{} values are too few to test the model", r.size())
                 : fmt::format("misfit within noise (p = {:.2g})", test.tail)
           : fmt::format(
                 "misfit beyond noise (p = {:.1g}), largest at the {}: {:.1f} mm; at maximum: "

@@ -42,6 +42,10 @@ std::string acting_text(const AnswerView& v) {
   for (const JointForce& j : v.joint)
     out += fmt::format("either   {}, together {:.2f} to {:.2f} N\n", fmt::join(j.names, " or "),
                        j.low, j.high);
+  if (v.mirrored)
+    out += fmt::format(
+        "mirror   left and right may be exchanged ({} that they are); the intervals hold both\n",
+        percent_text(*v.mirrored));
   return out;
 }
 

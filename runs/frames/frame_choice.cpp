@@ -114,6 +114,56 @@ Frames by_label(Frames frames, const std::vector<std::string>& labels, const std
   return kept;
 }
 
+/// "r1", or "r1 of speaker S2": what a frame belongs to.
+std::string take_of(const ContourFrame& f) {
+  return f.speaker.empty() ? f.recording : fmt::format("{} of speaker {}", f.recording, f.speaker);
+}
+
+std::set<std::string> takes_of(const Frames& frames) {
+  std::set<std::string> takes;
+  for (const ContourFrame& f : frames) takes.insert(take_of(f));
+  return takes;
+}
+
+/// A few names, and how many more.
+std::string some_of(const std::set<std::string>& names) {
+  constexpr size_t most = 5;
+  std::vector<std::string> first(names.begin(),
+                                 std::next(names.begin(), std::min(most, names.size())));
+  return names.size() <= most
+             ? fmt::format("{}", fmt::join(first, ", "))
+             : fmt::format("{} and {} more", fmt::join(first, ", "), names.size() - most);
+}
+
+Frames frames_of_recording(Frames frames, const std::string& recording, const std::string& path) {
+  std::set<std::string> all;
+  for (const ContourFrame& f : frames) all.insert(f.recording);
+  if (!all.contains(recording))
+    throw InputError(
+        fmt::format("--recording {}: {} has {}", recording, path,
+                    all == std::set<std::string>{""} ? "no names of recordings" : some_of(all)));
+  std::erase_if(frames, [&](const ContourFrame& f) { return f.recording != recording; });
+  return frames;
+}
+
+/// Answers are kept by the number of their frame.
+void check_numbers(const Frames& frames, const std::string& path) {
+  std::map<int, const ContourFrame*> seen;
+  for (const ContourFrame& f : frames) {
+    const auto [it, fresh] = seen.try_emplace(f.number, &f);
+    if (fresh) continue;
+    const std::string one = take_of(*it->second), other = take_of(f);
+    throw InputError(
+        one == other
+            ? fmt::format("{}: has two frames {}; number them apart", path, f.number)
+            : fmt::format(
+                  "{}: {} and {} both have a frame {}, and answers go by numbers; choose one "
+                  "with {}",
+                  path, one, other, f.number,
+                  it->second->recording == f.recording ? "--speaker" : "--recording"));
+  }
+}
+
 /// Formats without times leave them all at 0.
 void forget_missing_times(Frames& frames) {
   if (std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.time_s == 0; }))
@@ -144,6 +194,17 @@ std::vector<ContourFrame> of_one_speaker(std::vector<ContourFrame> frames,
   return frames;
 }
 
+void check_one_recording(const std::vector<ContourFrame>& frames, const std::string& option,
+                         const std::string& path) {
+  const auto takes = takes_of(frames);
+  if (takes.size() < 2) return;
+  std::set<std::string> recordings;
+  for (const ContourFrame& f : frames) recordings.insert(f.recording);
+  throw InputError(fmt::format(
+      "{}: makes one problem of all frames, and {} has {} recordings ({}); choose one with {}", option,
+      path, takes.size(), some_of(takes), recordings.size() > 1 ? "--recording" : "--speaker"));
+}
+
 std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const FrameChoice& choice,
                                         const std::string& path,
                                         const std::function<void(const std::string&)>& remark) {
@@ -152,6 +213,8 @@ std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const 
   if (!choice.tier.empty() && choice.textgrid.empty())
     throw InputError(
         fmt::format("--tier {}: is of a TextGrid; give it with --textgrid", choice.tier));
+  if (!choice.recording.empty())
+    frames = frames_of_recording(std::move(frames), choice.recording, path);
   if (!choice.frames.empty())
     frames = choice.frames.find('s') != std::string::npos
                  ? by_time(std::move(frames), choice.frames, path)
@@ -161,6 +224,7 @@ std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const 
   if (!choice.labels.empty())
     frames = by_label(std::move(frames), choice.labels,
                       choice.textgrid.empty() ? path : choice.textgrid);
+  check_numbers(frames, path);
   return frames;
 }
 

@@ -14,7 +14,7 @@ struct FrameChoice {
   std::string frames = {};  ///< "7", "3-9", "1.2s-1.8s" or "1.2s"
   std::string textgrid = {}, tier = {};
   std::vector<std::string> labels = {};
-  std::string speaker = {};  ///< of those that the file has
+  std::string speaker = {}, recording = {};  ///< of those that the file has
 };
 
 /// Those of one speaker: of the one that is asked for, else of the only one. Throws InputError
@@ -22,9 +22,15 @@ struct FrameChoice {
 std::vector<ContourFrame> of_one_speaker(std::vector<ContourFrame> frames,
                                          const FrameChoice& choice, const std::string& path);
 
+/// Throws InputError that names `option`, which makes one problem of all frames, where they are of
+/// several recordings.
+void check_one_recording(const std::vector<ContourFrame>& frames, const std::string& option,
+                         const std::string& path);
+
 /// The frames that are asked for, of all that the file `path` has. Those that a TextGrid names have
 /// its labels; a frame's time is NaN where the file gives no times. `remark` hears which labels
-/// have no frame. Throws InputError naming option, what the file has, and what was expected.
+/// have no frame. No two have the same number: one recording is to be chosen where they would. Throws
+/// InputError naming option, what the file has, and what was expected.
 std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const FrameChoice& choice,
                                         const std::string& path,
                                         const std::function<void(const std::string&)>& remark);

@@ -24,8 +24,9 @@ Prior checked_prior(const Model& model, const InversionOptions& o) {
 /// Which frames were asked for matters where all are one problem; else each is one of its own, and
 /// another range goes on where this one ends.
 QuestionValue asked_range(const InversionOptions& o) {
+  const FrameChoice& c = o.measured.choice;
   if (!o.joint()) return {};
-  return fmt::format("{} {}", o.measured.choice.frames, fmt::join(o.measured.choice.labels, ","));
+  return fmt::format("{} {} {}", c.frames, fmt::join(c.labels, ","), c.recording);
 }
 
 /// All files of a target that names several of one take.
@@ -101,6 +102,9 @@ Question question_of(const InversionOptions& o, double noise) {
 
 std::vector<Frame> frames_of(const Model& model, const std::vector<ContourFrame>& contours,
                              double noise, const InversionOptions& o) {
+  for (const auto& [asked, option] :
+       {std::pair{o.sequence, "--sequence"}, {o.smooth, "--smooth"}, {o.dynamic, "--dynamic"}})
+    if (asked) check_one_recording(contours, option, o.measured.target);
   try {
     return make_frames(model, contours, noise, o.robust ? outlier_dof : 0);
   } catch (const InputError& e) {

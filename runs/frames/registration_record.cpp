@@ -63,7 +63,12 @@ AnswerView with_registration(AnswerView view, const RegistrationRecord& record) 
 
 AnswerView with_registration(AnswerView view, const std::string& registration, bool forced) {
   view.registration = registration;
-  if (forced) view.title += " (the registration is doubtful)";
+  if (!forced) return view;
+  view.title += " (the registration is doubtful)";
+  if (view.verdict == "explained") {
+    view.verdict = "none";
+    view.message = fmt::format("no verdict, as the registration is doubtful ({})", view.message);
+  }
   return view;
 }
 

@@ -43,6 +43,7 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
     j["either"].push_back({{"muscles", joint.names},
                            {"acts", joint.acts},
                            {"interval90_N", {joint.low, joint.high}}});
+  j["mirrored"] = v.mirrored ? nlohmann::json(*v.mirrored) : nlohmann::json();
   j["rms_mm"] = v.rms_mm, j["max_mm"] = v.max_mm, j["chi2_per_dof"] = v.chi2_per_dof;
   j["unidentified"] = v.unidentified;
   j["trade_offs"] = nlohmann::json::array();

@@ -98,6 +98,7 @@ TEST_F(FrameChoices, LabelsPickFramesOfAFileOrOfATextGrid) {
 
 TEST_F(FrameChoices, FramesWithoutTimesAreNotLabelledByTimes) {
   std::vector<ContourFrame> frames(5);
+  for (int k = 0; k < 5; ++k) frames[size_t(k)].number = k + 1;
   EXPECT_NE(refusal(frames, {.textgrid = grid(), .tier = "phones"}).find("gives none"),
             std::string::npos);
   EXPECT_NE(refusal(frames, {.frames = "0s-1s"}).find("gives no times"), std::string::npos);
@@ -112,6 +113,24 @@ TEST_F(FrameChoices, ATextGridIsOfOneRecording) {
             std::string::npos);
   EXPECT_EQ(chosen(frames, {.textgrid = grid("one.TextGrid"), .tier = "phones"}),
             (Names{"21a", "37t"}));
+}
+
+TEST_F(FrameChoices, AnswersGoByNumbersSoNoTwoFramesHaveTheSame) {
+  auto frames = timed(6);
+  for (size_t k = 0; k < 6; ++k)
+    frames[k].number = int(k) % 3 + 1, frames[k].recording = k < 3 ? "one" : "two";
+  EXPECT_NE(refusal(frames, {}).find("--recording"), std::string::npos);
+  EXPECT_EQ(chosen(frames, {.recording = "two"}), (Names{"1", "2", "3"}));
+  EXPECT_NE(refusal(frames, {.recording = "three"}).find("one, two"), std::string::npos);
+  for (auto& f : frames) f.recording.clear();
+  EXPECT_NE(refusal(frames, {}).find("two frames 1"), std::string::npos);
+}
+
+TEST_F(FrameChoices, OneProblemIsOfOneRecording) {
+  auto frames = timed(4);
+  EXPECT_NO_THROW(check_one_recording(frames, "--smooth", "file.csv"));
+  frames[3].speaker = "B";
+  EXPECT_THROW(check_one_recording(frames, "--smooth", "file.csv"), InputError);
 }
 
 TEST_F(FrameChoices, ATierIsOfATextGrid) {
