@@ -214,6 +214,12 @@ AlignedRecording align_by_all(const Model& model, const TongueReach& reach, Sess
   if (mirrored && said_so)
     target.file.remarks.push_back(fmt::format("{} fits better than what was said: is it so?",
                                               described(others.front(), content)));
+  const bool as_well = content == Content::curves && !palate && judgement.faults.empty() &&
+                       !others.empty() && others.front().cost < best.cost + alike_alone;
+  if (as_well && !mirrored && !said_so)
+    target.file.remarks.push_back(
+        fmt::format("{} would fit as well, and its format has {}; say which by those options",
+                    described(others.front(), content), described(best, content)));
   const bool on_palate = palate && is_the_palate(target.file, palate->file);
   const double bite_plane_off = contradiction(model, reach, session, best);
   AlignedRecording result{turned(std::move(target.file), best.reading),

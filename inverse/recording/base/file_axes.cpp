@@ -103,7 +103,10 @@ double scale(ContourFile& file, const FileAxes& axes, const std::string& path,
                      : ""));
   file.units = unit;
   file.remarks.push_back(fmt::format("units {} ({}); contours span {:.0f} mm", unit,
-                                     told ? "as said" : "by their extent", 1e3 * extent * size));
+                                     !told             ? "by their extent"
+                                     : o.units.empty() ? "as the file has it"
+                                                       : "as said",
+                                     1e3 * extent * size));
   return size;
 }
 
