@@ -142,7 +142,8 @@ void check_same_speaker(const SessionFile& target, const SessionFile& palate) {
     return names;
   };
   const auto whose = named(target), of = named(palate);
-  if (whose.empty() || of.empty() || std::ranges::includes(of, whose)) return;
+  const auto is_theirs = [&](const std::string& name) { return whose.contains(name); };
+  if (whose.empty() || of.empty() || std::ranges::any_of(of, is_theirs)) return;
   throw InputError(
       fmt::format("{}: is of speaker {}, and {} of {}: give the palate of the same head",
                   palate.path, fmt::join(of, ", "), target.path, fmt::join(whose, ", ")));
