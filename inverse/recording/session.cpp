@@ -142,7 +142,11 @@ void check_same_speaker(const SessionFile& target, const SessionFile& palate) {
     return names;
   };
   const auto whose = named(target), of = named(palate);
-  const auto is_theirs = [&](const std::string& name) { return whose.contains(name); };
+  const auto is_theirs = [&](const std::string& name) {  // "S1" may be "S1, Ann" elsewhere
+    return std::ranges::any_of(whose, [&](const std::string& other) {
+      return name.starts_with(other) || other.starts_with(name);
+    });
+  };
   if (whose.empty() || of.empty() || std::ranges::any_of(of, is_theirs)) return;
   throw InputError(
       fmt::format("{}: is of speaker {}, and {} of {}: give the palate of the same head",
