@@ -55,8 +55,8 @@ struct Answer {
   std::string message;  ///< reason of a failure, or of the verdict
   Verdict verdict = Verdict::none;
   std::vector<Estimate> muscles;
-  std::vector<Estimate> others;           ///< parameters and head pose estimated along
-  std::vector<JointForce> joint;          ///< muscles of which one acts, though each may rest
+  std::vector<Estimate> others;   ///< parameters and head pose estimated along
+  std::vector<JointForce> joint;  ///< muscles of which one acts, though each may rest
   /// Probability that left and right are the other way round, where the shape hardly tells.
   std::optional<double> mirrored;
   std::vector<TradeOff> unidentified;     ///< muscles the data cannot tell apart

@@ -201,8 +201,9 @@ void check_one_recording(const std::vector<ContourFrame>& frames, const std::str
   std::set<std::string> recordings;
   for (const ContourFrame& f : frames) recordings.insert(f.recording);
   throw InputError(fmt::format(
-      "{}: makes one problem of all frames, and {} has {} recordings ({}); choose one with {}", option,
-      path, takes.size(), some_of(takes), recordings.size() > 1 ? "--recording" : "--speaker"));
+      "{}: makes one problem of all frames, and {} has {} recordings ({}); choose one with {}",
+      option, path, takes.size(), some_of(takes),
+      recordings.size() > 1 ? "--recording" : "--speaker"));
 }
 
 std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const FrameChoice& choice,

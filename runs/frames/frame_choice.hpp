@@ -29,8 +29,8 @@ void check_one_recording(const std::vector<ContourFrame>& frames, const std::str
 
 /// The frames that are asked for, of all that the file `path` has. Those that a TextGrid names have
 /// its labels; a frame's time is NaN where the file gives no times. `remark` hears which labels
-/// have no frame. No two have the same number: one recording is to be chosen where they would. Throws
-/// InputError naming option, what the file has, and what was expected.
+/// have no frame. No two have the same number: one recording is to be chosen where they would.
+/// Throws InputError naming option, what the file has, and what was expected.
 std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const FrameChoice& choice,
                                         const std::string& path,
                                         const std::function<void(const std::string&)>& remark);

@@ -38,7 +38,8 @@ std::vector<Vec2> measured_points(const Target& target, const HeadPose& pose) {
 AnswerView view_of(const Model& model, const Target& target, const Answer& a) {
   AnswerView v;
   v.status = to_string(a.status), v.message = a.message, v.verdict = to_string(a.verdict);
-  v.muscles = a.muscles, v.others = a.others, v.joint = a.joint, v.mirrored = a.mirrored, v.trade_offs = a.unidentified;
+  v.muscles = a.muscles, v.others = a.others, v.joint = a.joint, v.mirrored = a.mirrored,
+  v.trade_offs = a.unidentified;
   for (const TradeOff& trade : a.unidentified) v.unidentified.push_back(names(trade));
   v.weight = a.weight, v.alternatives = a.alternatives, v.outliers = a.residuals.outliers;
   v.rms_mm = 1e3 * a.rms, v.max_mm = 1e3 * a.max, v.chi2_per_dof = a.chi2_per_dof;
