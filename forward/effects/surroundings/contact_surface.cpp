@@ -147,7 +147,7 @@ std::atomic<uint64_t> surfaces_made = 0;
 ContactSurface contact_surface(std::shared_ptr<const DistanceField> field, const HexMesh& mesh,
                                const std::vector<Support>& supports, std::optional<Vec3> jaw_hinge,
                                double apart) {
-  ContactSurface surface{std::move(field), {}, {}, ++surfaces_made, jaw_hinge};
+  ContactSurface surface{std::move(field), {}, {}, ++surfaces_made, std::move(jaw_hinge)};
   for (const Quad& nodes : outer_faces(mesh, supports)) {
     ContactFace face = contact_face(*surface.field, mesh, nodes, supports, apart);
     if (std::all_of(face.points.begin(), face.points.end(),

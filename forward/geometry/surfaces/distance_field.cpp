@@ -57,7 +57,8 @@ void DistanceField::Brick::mark_cells(double spacing, Sample sample) {
         if (least > touch + way + rounded) continue;
         bool inside = least < touch;
         for (int c = 0; c < 27 && !inside; ++c) {
-          const Vec3 at(0.5 * (c % 3), 0.5 * (c / 3 % 3), 0.5 * (c / 9));
+          const int half[3] = {c % 3, c / 3 % 3, c / 9};  // of a cell
+          const Vec3 at(0.5 * half[0], 0.5 * half[1], 0.5 * half[2]);
           const auto value = [&](int y, int z) { return row(i, j + y, k + z); };
           inside = blended_value(at, value) < touch + 0.55 * way;
         }
