@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Every command of the README works as printed. Usage: readme_test.sh GENIO SOURCE_DIR
-# Commands are the lines of code blocks that start with `genio`. They run in a copy of the folder
+# Commands are the lines of code blocks that start with `genio`; one that ends in \ goes on in the
+# next line. They run in a copy of the folder
 # that the README names, one after another; one that ends in & runs until the others are done.
 set -u
 genio=$1 source=$2
@@ -21,7 +22,12 @@ while read -r line; do
     continue
   fi
   $line >log 2>&1 </dev/null || { echo "FAILED with status $?: $line"; tail -20 log; failed=1; }
-done < <(awk '/^```/ { code = !code } code && /^genio /' "$source/README.md")
+done < <(awk '/^```/ { code = !code }
+  code && (held != "" || /^genio /) {
+    command = held $0
+    held = sub(/\\$/, "", command) ? command : ""
+    if (held == "") print command
+  }' "$source/README.md")
 for file in shape/frame00001.png recording/summary.png smooth/summary.csv moving/commands.csv corpus/results.csv \
             forward/shape.vtu motion/motion.pvd found/discovery.html found/model/model.toml; do
   [ -s "out/$file" ] || { echo "FAILED: no out/$file"; failed=1; }

@@ -26,17 +26,15 @@ double depth_of(const ContactFace& face, const BoneDistance& distance, const Pos
 
 DensestPenetration::DensestPenetration(const ModelDescription& d) {
   for (const auto& [name, surface] : {std::pair{"palate", &d.palate}, {"jaw", &d.jaw}})
-    if (*surface)
-      bones_.emplace(name,
-                     contact_surface(bone_field(**surface, d.mesh), d.mesh, d.supports, {}, 2e-4));
+    if (*surface) bones_.emplace(name, contact_faces(**surface, d.mesh, d.supports, 2e-4));
 }
 
 std::map<std::string, double> DensestPenetration::operator()(const Positions& x) const {
   std::map<std::string, double> result;
   for (const auto& [name, bone] : bones_) {
     double deepest = 0;
-    for (const ContactFace& face : bone.faces)
-      deepest = depth_of(face, bone.field->exact(), x, deepest);
+    for (const ContactFace& face : bone->faces)
+      deepest = depth_of(face, bone->field->exact(), x, deepest);
     result[name] = deepest;
   }
   return result;

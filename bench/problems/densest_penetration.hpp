@@ -3,7 +3,7 @@
 #include <string>
 
 #include "forward/effects/description.hpp"
-#include "forward/effects/surroundings/contact_surface.hpp"
+#include "forward/effects/surroundings/contact_faces.hpp"
 
 namespace genio::bench {
 
@@ -16,7 +16,7 @@ class DensestPenetration {
   std::map<std::string, double> operator()(const Positions& x) const;
 
  private:
-  std::map<std::string, ContactSurface> bones_;
+  std::map<std::string, std::shared_ptr<const ContactFaces>> bones_;
 };
 
 }  // namespace genio::bench

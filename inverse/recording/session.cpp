@@ -1,12 +1,10 @@
 #include "inverse/recording/session.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "inverse/recording/session_faults.hpp"
 #include "inverse/recording/session_marks.hpp"
@@ -131,26 +129,6 @@ std::string described(const Candidate& c, Content content) {
                      c.reading.text(content), c.registration.transform.scale,
                      c.registration.transform.angle * 180 / std::numbers::pi, c.cost,
                      c.reading.options(content));
-}
-
-/// One palate does not register two heads. Files that name no speaker may be of anyone.
-void check_same_speaker(const SessionFile& target, const SessionFile& palate) {
-  const auto named = [](const SessionFile& session) {
-    std::set<std::string> names;
-    for (const ContourFrame& f : session.file.frames)
-      if (!f.points.empty() && !f.speaker.empty()) names.insert(f.speaker);
-    return names;
-  };
-  const auto whose = named(target), of = named(palate);
-  const auto is_theirs = [&](const std::string& name) {  // "S1" may be "S1, Ann" elsewhere
-    return std::ranges::any_of(whose, [&](const std::string& other) {
-      return name.starts_with(other) || other.starts_with(name);
-    });
-  };
-  if (whose.empty() || of.empty() || std::ranges::any_of(of, is_theirs)) return;
-  throw InputError(
-      fmt::format("{}: is of speaker {}, and {} of {}: give the palate of the same head",
-                  palate.path, fmt::join(of, ", "), target.path, fmt::join(whose, ", ")));
 }
 
 /// align() that takes all marks for true.

@@ -1,10 +1,12 @@
 #include "inverse/recording/session_faults.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "forward/base/median.hpp"
 #include "inverse/recording/frame_target.hpp"
@@ -24,7 +26,24 @@ constexpr size_t many_frames = 20;   // whose usual distances are not those of o
 
 Vec2 flat(const Vec3& p) { return {p[0], p[2]}; }
 
+std::set<std::string> speakers_of(const SessionFile& session) {
+  std::set<std::string> names;
+  for (const ContourFrame& f : session.file.frames)
+    if (!f.points.empty() && !f.speaker.empty())
+      names.insert(f.speaker.substr(0, f.speaker.find(',')));
+  return names;
+}
+
 }  // namespace
+
+void check_same_speaker(const SessionFile& target, const SessionFile& palate) {
+  const auto whose = speakers_of(target), of = speakers_of(palate);
+  const auto is_theirs = [&](const std::string& name) { return whose.contains(name); };
+  if (whose.empty() || of.empty() || std::ranges::any_of(of, is_theirs)) return;
+  throw InputError(
+      fmt::format("{}: is of speaker {}, and {} of {}: give the palate of the same head",
+                  palate.path, fmt::join(of, ", "), target.path, fmt::join(whose, ", ")));
+}
 
 std::vector<Vec2> place_offsets(const Model& model, const ContourFile& file, const Similarity& s) {
   std::map<std::string, std::pair<Vec2, int>> sums;

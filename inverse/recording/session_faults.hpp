@@ -9,6 +9,10 @@ namespace genio {
 /// does along four fifths of what is seen of it.
 bool is_the_palate(const ContourFile& target, const ContourFile& palate);
 
+/// One palate does not register two heads: throws InputError where both files name speakers and
+/// share none. Names count up to a comma, as "S1" may be "S1, Ann" in another table.
+void check_same_speaker(const SessionFile& target, const SessionFile& palate);
+
 /// How far marked points lie, once they are registered, from where they are glued at rest, each in
 /// the middle of its places [m].
 std::vector<Vec2> place_offsets(const Model& model, const ContourFile& file, const Similarity& s);

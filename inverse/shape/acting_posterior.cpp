@@ -23,11 +23,11 @@ RestBelief rest_belief(const std::vector<Unknown>& unknowns, const PriorTerms& p
   for (size_t k = 0; k < which.size(); ++k)
     if (prior.muscles_rest) belief.slab[Eigen::Index(k)] = prior.effort[which[k]];
   belief.partner.assign(which.size(), -1);
+  const auto other = other_sides(unknowns);
   for (size_t a = 0; a < which.size(); ++a)
     for (size_t b = 0; b < which.size(); ++b)
-      if (a != b && belief.slab[Eigen::Index(a)] > 0 && belief.slab[Eigen::Index(b)] > 0 &&
-          bilateral_name(unknowns[size_t(which[a])].name) ==
-              bilateral_name(unknowns[size_t(which[b])].name))
+      if (other[size_t(which[a])] == which[b] && belief.slab[Eigen::Index(a)] > 0 &&
+          belief.slab[Eigen::Index(b)] > 0)
         belief.partner[a] = Eigen::Index(b);
   return belief;
 }

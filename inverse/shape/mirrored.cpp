@@ -11,25 +11,13 @@ namespace {
 constexpr double unlike = 0.01;    // activations of two sides that are not the same
 constexpr double well_told = 3.5;  // a rise that leaves the mirror image 3 %
 
-/// Number of the other side's unknown, its own where there is none.
-std::vector<Eigen::Index> other_sides(const std::vector<Unknown>& unknowns) {
-  std::vector<Eigen::Index> other(unknowns.size());
-  for (size_t a = 0; a < unknowns.size(); ++a) {
-    other[a] = Eigen::Index(a);
-    for (size_t b = 0; b < unknowns.size(); ++b)
-      if (a != b && unknowns[a].kind == Unknown::Kind::muscle &&
-          unknowns[b].kind == Unknown::Kind::muscle &&
-          bilateral_name(unknowns[a].name) == bilateral_name(unknowns[b].name))
-        other[a] = Eigen::Index(b);
-  }
-  return other;
-}
-
 }  // namespace
 
 std::optional<double> mix_mirrored(Objective& objective, const ObjectivePoint& optimum,
                                    ActingPosterior& posterior) {
-  const auto other = other_sides(objective.unknowns());
+  auto other = other_sides(objective.unknowns());
+  for (size_t i = 0; i < other.size(); ++i)
+    if (other[i] < 0) other[i] = Eigen::Index(i);
   const PriorTerms& prior = objective.prior();
   const Vector& z = optimum.activations;
   const Vector mirrored = z(other);

@@ -84,7 +84,7 @@ void Contact::add_force_derivative(const Positions& x, EffectParameters p, int k
 double Contact::step_limit(const Positions& x, const Positions& along, EffectParameters p) const {
   const PlacedSurface placed(*surface_, jaw(p));
   double t = 1.0;
-  for (const int n : surface_->nodes) {
+  for (const int n : surface_->touchable->nodes) {
     const auto gap_at = [&](double s) {
       return placed.rough(node_position(x, n) + s * node_position(along, n));
     };

@@ -38,7 +38,7 @@ class Contact final : public ContactPotential, public NewtonAid {
   double step_limit(const Positions& x, const Positions& along, EffectParameters p) const override;
 
   double distance(const Vec3& point) const override {
-    return surface_->field->exact().face()(point);
+    return surface_->touchable->field->exact().face()(point);
   }
   double max_penetration(const Positions& x, EffectParameters p) const override;
 

@@ -5,7 +5,6 @@
 #include "forward/effects/bones/jaw_opening.hpp"
 #include "forward/effects/surroundings/contact.hpp"
 #include "forward/effects/surroundings/contact_damping.hpp"
-#include "forward/geometry/surfaces/bone_field.hpp"
 
 namespace genio {
 namespace {
@@ -21,7 +20,7 @@ Effect contact(Settings& s, const Anatomy& a, const std::string& bone,
         fmt::format("{}: [effect.{}] needs a surface '{}' in [surfaces]", a.source, name, bone));
   const double stiffness = s.take("stiffness", 2e8), damping = s.take("damping", 0);
   const auto placed = std::make_shared<const ContactSurface>(
-      contact_surface(bone_field(*surface, d.mesh), d.mesh, a.supports, hinge));
+      ContactSurface{contact_faces(*surface, d.mesh, a.supports), hinge});
   const auto touch = std::make_shared<Contact>(name, placed, stiffness);
   return {.potential = touch,
           .dissipation = std::make_shared<ContactDamping>(name, placed, damping),

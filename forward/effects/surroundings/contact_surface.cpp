@@ -2,67 +2,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <numeric>
 #include <utility>
-
-#include "forward/tissue/tongue_faces.hpp"
 
 namespace genio {
 namespace {
-
-constexpr double deepest_overlap = 2e-3;  // at rest [m]
-constexpr double another_side = 10e-3;    // so near its side of the bone is asked for [m]
-constexpr double field_error = 0.3e-3;    // of the spline at an edge [m]
-
-/// The distance that a point keeps [m], below 0 where it overlaps at rest; none where it lies on
-/// another side of the bone, behind the plane of the surface's nearest place. `near`: as for
-/// SurfaceDistance.
-std::optional<double> rest_clearance(const DistanceField& field, const Vec3& at, int& near) {
-  if (field.rough(at) > another_side) return saliva_film;
-  const auto foot = field.exact().face().foot(at, near);
-  if ((at - foot.place).dot(foot.normal.normalized()) <
-      -(foot.on_rim ? field_error : deepest_overlap))
-    return std::nullopt;
-  double distance = field.exact().from(foot, at, near);
-  if (distance < field_error) distance = field.value(at);
-  return std::min(saliva_film, distance);
-}
-
-/// Cells between points along a face: a power of 2.
-int cells(const Vec3& side, const Vec3& opposite, double apart) {
-  const double length = std::max(side.norm(), opposite.norm());
-  return 1 << std::clamp(int(std::lround(std::log2(length / apart))), 0, 6);
-}
-
-ContactFace contact_face(const DistanceField& field, const HexMesh& mesh, const Quad& nodes,
-                         const std::vector<Support>& supports, double apart) {
-  std::array<Vec3, 4> x;
-  std::array<double, 4> moves;
-  for (size_t a = 0; a < 4; ++a)
-    x[a] = mesh.nodes[size_t(nodes[a])], moves[a] = moves_freely(supports[size_t(nodes[a])]);
-  int near = -1;
-  ContactFace face{
-      nodes, cells(x[1] - x[0], x[2] - x[3], apart), cells(x[3] - x[0], x[2] - x[1], apart), {}};
-  for (int j = 0; j <= face.cells_v; ++j)
-    for (int i = 0; i <= face.cells_u; ++i) {
-      const double u = double(i) / face.cells_u, v = double(j) / face.cells_v;
-      ContactPoint point{{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}, 0, saliva_film};
-      const auto& w = point.weight;
-      const Vec3 by_u = (1 - v) * (x[1] - x[0]) + v * (x[2] - x[3]);
-      const Vec3 by_v = (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1]);
-      // Trapezoidal rule.
-      const double part = (u > 0 && u < 1 ? 1 : 0.5) * (v > 0 && v < 1 ? 1 : 0.5);
-      const auto clearance =
-          rest_clearance(field, w[0] * x[0] + w[1] * x[1] + w[2] * x[2] + w[3] * x[3], near);
-      if (clearance && std::inner_product(w.begin(), w.end(), moves.begin(), 0.0) >= 0.5)
-        point.area = part * by_u.cross(by_v).norm() / (face.cells_u * face.cells_v),
-        point.clearance = *clearance;
-      face.points.push_back(point);
-    }
-  return face;
-}
 
 /// A bilinear piece lies in the sphere about its corners.
 struct Sphere {
@@ -82,9 +26,7 @@ class TouchSearch {
  public:
   TouchSearch(const PlacedSurface& placed, const ContactFace& face, const Positions& x,
               std::vector<TouchingPoint>& out)
-      : placed_(placed), face_(face), out_(out) {
-    for (size_t a = 0; a < 4; ++a) corner_[a] = node_position(x, face.nodes[a]);
-  }
+      : placed_(placed), face_(face), out_(out), corner_(corners(x, face.nodes)) {}
   void run() { look_at({corner_, 0, 0, face_.cells_u, face_.cells_v}); }
 
  private:
@@ -114,14 +56,13 @@ class TouchSearch {
       // Points between two pieces belong to the first.
       for (int j = p.v + (p.v > 0); j <= p.v + p.cells_v; ++j)
         for (int i = p.u + (p.u > 0); i <= p.u + p.cells_u; ++i)
-          ask(face_.points[size_t(j * (face_.cells_u + 1) + i)]);
+          ask(face_.points[size_t(j) * size_t(face_.cells_u + 1) + size_t(i)]);
     }
   }
 
   void ask(const ContactPoint& point) {
     if (point.area == 0) return;
-    const auto& w = point.weight;
-    const Vec3 at = w[0] * corner_[0] + w[1] * corner_[1] + w[2] * corner_[2] + w[3] * corner_[3];
+    const Vec3 at = blend(corner_, point.weight);
     const double depth = point.clearance - placed_.value_if_touching(at);
     if (depth > 0) out_.push_back({&point, at, depth});
   }
@@ -134,32 +75,18 @@ class TouchSearch {
 
 /// A search and what it was made for.
 struct Search {
-  uint64_t surface = 0;
+  ContactSurface surface;
   std::vector<double> jaw;
   Positions x;
   std::vector<TouchingFace> found;
+
+  bool is_of(const ContactSurface& s, const Positions& at, EffectParameters p) const {
+    return surface.touchable == s.touchable && surface.jaw_hinge == s.jaw_hinge &&
+           std::ranges::equal(jaw, p) && x == at;
+  }
 };
 
-std::atomic<uint64_t> surfaces_made = 0;
-
 }  // namespace
-
-ContactSurface contact_surface(std::shared_ptr<const DistanceField> field, const HexMesh& mesh,
-                               const std::vector<Support>& supports, std::optional<Vec3> jaw_hinge,
-                               double apart) {
-  ContactSurface surface{std::move(field), {}, {}, ++surfaces_made, std::move(jaw_hinge)};
-  for (const Quad& nodes : outer_faces(mesh, supports)) {
-    ContactFace face = contact_face(*surface.field, mesh, nodes, supports, apart);
-    if (std::all_of(face.points.begin(), face.points.end(),
-                    [](const ContactPoint& p) { return p.area == 0; }))
-      continue;
-    surface.nodes.insert(surface.nodes.end(), nodes.begin(), nodes.end());
-    surface.faces.push_back(std::move(face));
-  }
-  std::sort(surface.nodes.begin(), surface.nodes.end());
-  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()), surface.nodes.end());
-  return surface;
-}
 
 std::vector<ParameterName> ContactSurface::borrows() const {
   if (!jaw_hinge) return {};
@@ -167,7 +94,7 @@ std::vector<ParameterName> ContactSurface::borrows() const {
 }
 
 PlacedSurface::PlacedSurface(const ContactSurface& surface, EffectParameters jaw)
-    : field_(*surface.field) {
+    : field_(*surface.touchable->field) {
   if (!surface.jaw_hinge) return;
   jaw_ = JawMotion{*surface.jaw_hinge, jaw[0], jaw[1]};
   moved_ = jaw_.angle != 0 || jaw_.slide != 0;
@@ -195,14 +122,14 @@ const std::vector<TouchingFace>& find_touching(const ContactSurface& surface, co
   thread_local std::array<Search, 4> latest;  // palate and jaw, each at two shapes
   thread_local size_t oldest = 0;
   for (const Search& s : latest)
-    if (s.surface == surface.identity && std::ranges::equal(s.jaw, jaw) && s.x == x) return s.found;
+    if (s.is_of(surface, x, jaw)) return s.found;
   Search& s = latest[oldest];
   oldest = (oldest + 1) % latest.size();
-  s.surface = surface.identity, s.jaw.assign(jaw.begin(), jaw.end()), s.x = x;
+  s.surface = surface, s.jaw.assign(jaw.begin(), jaw.end()), s.x = x;
   s.found.clear();
   const PlacedSurface placed(surface, jaw);
   std::vector<TouchingPoint> touching;
-  for (const ContactFace& face : surface.faces) {
+  for (const ContactFace& face : surface.touchable->faces) {
     TouchSearch(placed, face, x, touching).run();
     if (!touching.empty()) s.found.push_back({&face, std::exchange(touching, {})});
   }

@@ -4,33 +4,14 @@
 #include <optional>
 #include <vector>
 
-#include "forward/algebra/supports.hpp"
+#include "forward/algebra/stiffness.hpp"
 #include "forward/base/parameter_name.hpp"
 #include "forward/effects/bones/jaw_motion.hpp"
 #include "forward/effects/parameter.hpp"
-#include "forward/geometry/surfaces/bone_field.hpp"
+#include "forward/effects/surroundings/contact_faces.hpp"
 #include "forward/tissue/soft_spring.hpp"
 
 namespace genio {
-
-/// Saliva keeps tongue and bone apart [m]: Collins & Dawes (1987) measured a film of 0.07 to 0.1
-/// mm. It also covers what the spline rounds off an edge.
-constexpr double saliva_film = 1e-4;
-
-/// A point of a face that may touch, and the part of the surface that it stands for.
-struct ContactPoint {
-  std::array<double, 4> weight;  ///< of the face's nodes: bilinear shape functions
-  double area;                   ///< [m^2]
-  double
-      clearance;  ///< of the bone that it keeps [m]: the film, or less where it is nearer at rest
-};
-
-/// A face with points on a grid of 2^m by 2^n cells, row by row, edges and corners included.
-struct ContactFace {
-  Quad nodes;
-  int cells_u, cells_v;
-  std::vector<ContactPoint> points;  ///< those that never touch have no area
-};
 
 /// A point below the surface in the shape at hand.
 struct TouchingPoint {
@@ -41,23 +22,12 @@ struct TouchingPoint {
 
 /// A rigid bone at rest and the tongue's faces that may touch it.
 struct ContactSurface {
-  std::shared_ptr<const DistanceField> field;
-  std::vector<ContactFace> faces;
-  std::vector<int> nodes;              ///< of the faces, each once
-  uint64_t identity;                   ///< no two surfaces of a process have the same
+  std::shared_ptr<const ContactFaces> touchable;
   std::optional<Vec3> jaw_hinge = {};  ///< set where the surface belongs to an opening jaw [m]
 
   /// The jaw's motion, where the surface belongs to it.
   std::vector<ParameterName> borrows() const;
 };
-
-/// Points of the tongue's faces `apart` from one another (0.7 to 1.4 times that) so that no edge of
-/// the bone lies deep between them. Those that hang on supported nodes by more than half are the
-/// attachment's. What overlaps at rest may stay so; what is more than 2 mm behind the surface at
-/// rest belongs to another side of the bone and never touches.
-ContactSurface contact_surface(std::shared_ptr<const DistanceField> field, const HexMesh& mesh,
-                               const std::vector<Support>& supports, std::optional<Vec3> jaw_hinge,
-                               double apart = 0.5e-3);
 
 /// A contact surface where the jaw's angle [deg] and slide [m] put it.
 class PlacedSurface {
@@ -65,9 +35,8 @@ class PlacedSurface {
   /// `jaw`: the values that the surface borrows, angle and slide or nothing.
   PlacedSurface(const ContactSurface& surface, EffectParameters jaw);
 
-  /// Signed distance [m], positive on the tongue's side.
-  double value(const Vec3& x) const { return field_.value(local(x)); }
-  /// The same where it may touch, else perhaps only some larger number.
+  /// Signed distance where it may touch, positive on the tongue's side; else perhaps only some
+  /// larger number [m].
   double value_if_touching(const Vec3& x) const { return field_.value_if_touching(local(x)); }
   DistanceSample sample(const Vec3& x) const;
   /// The distance to within 2 mm, without filling in what is fine [m].
@@ -95,13 +64,6 @@ inline SoftSpring contact_spring(double depth) {
   const SoftSpring second(depth - soft_depth, soft_depth);
   return {first.value + harder * second.value, first.slope + harder * second.slope,
           first.curvature + harder * second.curvature};
-}
-
-/// A point of a face by the weights of its nodes, in the field `x` of all nodes.
-inline Vec3 blend(const Positions& x, const Quad& nodes, const std::array<double, 4>& weight) {
-  Vec3 result = Vec3::Zero();
-  for (int a = 0; a < 4; ++a) result += weight[size_t(a)] * node_position(x, nodes[size_t(a)]);
-  return result;
 }
 
 /// A face that touches, and its touching points.

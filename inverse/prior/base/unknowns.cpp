@@ -19,6 +19,17 @@ std::vector<Unknown> muscle_unknowns(const Model& model, bool bilateral) {
   return unknowns;
 }
 
+std::vector<Eigen::Index> other_sides(const std::vector<Unknown>& unknowns) {
+  std::vector<Eigen::Index> other(unknowns.size(), -1);
+  for (size_t a = 0; a < unknowns.size(); ++a)
+    for (size_t b = 0; b < unknowns.size(); ++b)
+      if (a != b && unknowns[a].kind == Unknown::Kind::muscle &&
+          unknowns[b].kind == Unknown::Kind::muscle &&
+          bilateral_name(unknowns[a].name) == bilateral_name(unknowns[b].name))
+        other[a] = Eigen::Index(b);
+  return other;
+}
+
 std::vector<int> parameters_named(const Model& model, const std::string& name) {
   std::vector<int> result;
   for (size_t k = 0; k < model.parameters.size(); ++k)

@@ -40,6 +40,9 @@ struct Unknown {
 /// All muscles of the model, in the model's order; `bilateral` joins left and right.
 std::vector<Unknown> muscle_unknowns(const Model& model, bool bilateral);
 
+/// Number of the other side of the same muscle for each unknown; -1: none.
+std::vector<Eigen::Index> other_sides(const std::vector<Unknown>& unknowns);
+
 /// Model parameters that "effect.parameter" speaks of: itself or its two sides ("weak_muscle.GGP").
 /// Throws InputError that suggests the nearest name.
 std::vector<int> parameters_named(const Model& model, const std::string& name);

@@ -8,14 +8,10 @@ void SymmetryTerm::add_rows(const std::vector<Unknown>& unknowns, PriorRows& row
   if (!symmetry_sd) return;
   need_positive(*symmetry_sd, "symmetry");
   const auto n = Eigen::Index(unknowns.size());
-  const auto muscle = [&](Eigen::Index i) {
-    return unknowns[size_t(i)].kind == Unknown::Kind::muscle;
-  };
+  const auto other = other_sides(unknowns);
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j < i; ++j)
-      if (muscle(i) && muscle(j) &&
-          bilateral_name(unknowns[size_t(i)].name) == bilateral_name(unknowns[size_t(j)].name))
-        rows.add(Vector::Unit(n, i) - Vector::Unit(n, j), 0, *symmetry_sd);
+    if (const Eigen::Index j = other[size_t(i)]; j >= 0 && j < i)
+      rows.add(Vector::Unit(n, i) - Vector::Unit(n, j), 0, *symmetry_sd);
 }
 
 SymmetryTerm SymmetryTerm::read(const TomlReader& file) {

@@ -7,6 +7,7 @@
 #include "forward/model/build_model.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "inverse/recording/frame_target.hpp"
+#include "inverse/recording/session_faults.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {
@@ -102,6 +103,23 @@ TEST_F(SessionOfAModel, SensorsOfAnyAxesComeBackTheSame) {
         EXPECT_EQ(a.reading, reading);
         EXPECT_NEAR(a.registration.transform.scale, 1, 0.05);
       }
+}
+
+TEST_F(SessionOfAModel, APalateOfAnotherSpeakerIsRefused) {
+  SessionFile target{"t", contour({}), {}}, trace = palate({}, Content::curves);
+  const auto named = [&](const std::string& whose, const std::string& of) {
+    for (ContourFrame& f : target.file.frames) f.speaker = whose;
+    for (ContourFrame& f : trace.file.frames) f.speaker = of;
+  };
+  for (const auto& [whose, of] : {std::pair{"S1", "S9"}, {"S10", "S1"}, {"S1, Ann", "S10"}}) {
+    named(whose, of);
+    EXPECT_THROW(check_same_speaker(target, trace), InputError) << whose << " and " << of;
+  }
+  for (const auto& [whose, of] :
+       {std::pair{"S1", "S1"}, {"S1, Ann", "S1"}, {"", "S1"}, {"S1", ""}}) {
+    named(whose, of);
+    EXPECT_NO_THROW(check_same_speaker(target, trace)) << whose << " and " << of;
+  }
 }
 
 TEST_F(SessionOfAModel, AMirrorImageIsAFaultWhateverTheFormatSays) {

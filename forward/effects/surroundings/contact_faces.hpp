@@ -1,0 +1,65 @@
+#pragma once
+// The faces of a tongue that may touch a bone, as points.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "forward/algebra/supports.hpp"
+#include "forward/geometry/surfaces/bone_field.hpp"
+
+namespace genio {
+
+/// Saliva keeps tongue and bone apart [m]: Collins & Dawes (1987) measured a film of 0.07 to 0.1
+/// mm. It also covers what the spline rounds off an edge.
+constexpr double saliva_film = 1e-4;
+
+/// A point of a face that may touch, and the part of the surface that it stands for.
+struct ContactPoint {
+  std::array<double, 4> weight;  ///< of the face's nodes: bilinear shape functions
+  double area;                   ///< [m^2]
+  double
+      clearance;  ///< of the bone that it keeps [m]: the film, or less where it is nearer at rest
+};
+
+/// A face with points on a grid of 2^m by 2^n cells, row by row, edges and corners included.
+struct ContactFace {
+  Quad nodes;
+  int cells_u, cells_v;
+  std::vector<ContactPoint> points;  ///< those that never touch have no area
+};
+
+/// A bone at rest and the tongue's faces that may touch it.
+struct ContactFaces {
+  std::shared_ptr<const DistanceField> field;
+  std::vector<ContactFace> faces;
+  std::vector<int> nodes;  ///< of the faces, each once
+};
+
+/// Points of the tongue's faces `apart` from one another (0.7 to 1.4 times that) so that no edge of
+/// the bone lies deep between them. Those that hang on supported nodes by more than half are the
+/// attachment's. What overlaps at rest may stay so; what is more than 2 mm behind the surface at
+/// rest belongs to another side of the bone and never touches. The latest few are kept, as models
+/// that differ in other effects have the same.
+std::shared_ptr<const ContactFaces> contact_faces(const TriangleSurface& surface,
+                                                  const HexMesh& mesh,
+                                                  const std::vector<Support>& supports,
+                                                  double apart = 0.5e-3);
+
+/// A point between four corners by their weights.
+inline Vec3 blend(const std::array<Vec3, 4>& x, const std::array<double, 4>& weight) {
+  return weight[0] * x[0] + weight[1] * x[1] + weight[2] * x[2] + weight[3] * x[3];
+}
+
+/// The corners of a face in the field `x` of all nodes.
+inline std::array<Vec3, 4> corners(const Positions& x, const Quad& nodes) {
+  return {node_position(x, nodes[0]), node_position(x, nodes[1]), node_position(x, nodes[2]),
+          node_position(x, nodes[3])};
+}
+
+/// A point of a face by the weights of its nodes, in the field `x` of all nodes.
+inline Vec3 blend(const Positions& x, const Quad& nodes, const std::array<double, 4>& weight) {
+  return blend(corners(x, nodes), weight);
+}
+
+}  // namespace genio
