@@ -113,6 +113,8 @@ expect 2 'does nothing without --textgrid' "$genio" invert --target words.csv --
 expect 2 'not together with --palate' "$genio" invert --target fan.tsv --palate fan.tsv --registered
 expect 2 'sensors are named' "$genio" invert --target words.csv --sensors 3=tip
 expect 2 '--units: does not apply' "$genio" invert --target words.csv --units mm
+expect 2 '0: expected a number above 0' "$genio" invert --target words.csv --noise-mm 0
+expect 2 '--ignore-marks: does not apply' "$genio" invert --target words.csv --ignore-marks
 expect 2 '--noise-mm: does not apply' "$genio" invert --target "$example" --noise-mm 1
 expect 2 'does nothing without --dynamic' "$genio" forward --duration 1
 expect 2 "'request status' does not take it" "$genio" request status --target words.csv

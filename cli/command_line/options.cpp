@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "forward/base/types.hpp"
 
@@ -16,6 +18,15 @@ bool is_given(const CLI::App& app, const std::string& name) {
   return option && option->count() > 0;
 }
 
+/// CLI11's own check names the largest number there is.
+std::string above_zero(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && !*end && value > 0 && std::isfinite(value)
+             ? ""
+             : fmt::format("{}: expected a number above 0", text);
+}
+
 }  // namespace
 
 template <class T>
@@ -23,7 +34,7 @@ void Options::declare(const char* name, T& value, const std::string& help, const
   CLI::Option* option = app_->add_option(name, value, help);
   if (rules.required) option->required();
   if (rules.range) option->check(CLI::Range(rules.range->first, rules.range->second));
-  if (rules.positive) option->check(CLI::PositiveNumber);
+  if (rules.positive) option->check(above_zero);
   if (!rules.among.empty()) option->check(CLI::IsMember(rules.among));
   if (rules.separator) option->delimiter(rules.separator);
   if (rules.shows_default) option->capture_default_str();

@@ -38,7 +38,8 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--axes", o.read.axes,
               "EMA and scans: the axis that runs back along the head and the one that runs up, as "
               "in -x+z");
-  options.add("--sensors", o.sensors, "EMA: what each is stuck to, 3=dorsum,5=tip",
+  options.add("--sensors", o.sensors,
+              "EMA: what each is stuck to, 1=tip+3mm,2=tip+13mm,3=dorsum (see genio info)",
               {.separator = ','});
   options.add("--rate-hz", o.read.rate_hz, "EMA: samples a second, where the file does not say",
               {.positive = true});
@@ -82,7 +83,8 @@ void add_measured_options(Options& options, MeasuredOptions& o) {
   options.add("--recording", o.choice.recording,
               "This one's frames alone, where the file has several");
   options.add("--noise-mm", o.noise_mm,
-              fmt::format("Measurement noise (by the format: {})", usual_noises()));
+              fmt::format("Measurement noise (by the format: {})", usual_noises()),
+              {.positive = true});
 }
 
 }  // namespace genio::cli

@@ -11,7 +11,6 @@
 namespace genio {
 namespace {
 
-constexpr double tissue_stretch = 0.3;
 constexpr double in_order = 5e-3;  // places that differ by less along the head have no order [m]
 constexpr double out_of_order = 3e-3;  // of sensors that lie the other way round [m]
 constexpr double glue_slack = 3e-3;    // of gluing and of the line's chords [m]
@@ -169,7 +168,7 @@ std::string other_order(const Model& model, const ContourFile& file) {
 
 /// Two sensors whose distance is not that of their places.
 std::string other_distance(const Model& model, const ContourFile& file,
-                           const std::pair<double, double>& scales) {
+                           const std::pair<double, double>& scales, double stretch) {
   const auto kinds = kinds_of(file);
   std::string worst;
   double worst_ratio = 0;
@@ -178,8 +177,8 @@ std::string other_distance(const Model& model, const ContourFile& file,
       const double seen = usual_distance(file, kinds[i], kinds[j]);
       const double modelled = (at_rest(model, kinds[i]) - at_rest(model, kinds[j])).norm();
       if (std::isnan(seen)) continue;
-      const bool near = seen + glue_slack < modelled * scales.first * (1 - tissue_stretch);
-      const bool far = seen - glue_slack > modelled * scales.second * (1 + tissue_stretch);
+      const bool near = seen + glue_slack < modelled * scales.first * (1 - stretch);
+      const bool far = seen - glue_slack > modelled * scales.second * (1 + stretch);
       if (!near && !far) continue;
       const double ratio = near ? modelled / (seen + 1e-4) : seen / (modelled + 1e-4);
       if (ratio <= worst_ratio) continue;
@@ -230,10 +229,10 @@ std::map<std::string, double> places_by_distance(const Model& model, const Conto
 }
 
 std::string place_contradiction(const Model& model, const ContourFile& file,
-                                const std::pair<double, double>& scales) {
+                                const std::pair<double, double>& scales, double stretch) {
   std::string worst = apart_at_one_place(file);
   if (worst.empty()) worst = other_order(model, file);
-  if (worst.empty()) worst = other_distance(model, file, scales);
+  if (worst.empty()) worst = other_distance(model, file, scales, stretch);
   if (worst.empty()) return {};
   std::string proposal;
   for (const auto& [kind, arc] : places_by_distance(model, file))

@@ -21,12 +21,16 @@ double behind_tip(const Model& model, const std::string& place);
 /// Scales that speakers have beside a model.
 inline constexpr std::pair any_scale{0.75, 1.3};
 
+/// What no tissue is stretched by as a whole, and what it seldom is.
+inline constexpr double most_stretch = 0.3, usual_stretch = 0.15;
+
 /// What contradicts the places, empty where nothing does: two sensors whose distance, over all
-/// frames, no scale between those and no stretch of the tissue by 30 % brings to the model's; two
+/// frames, no scale between those and no such stretch of the tissue brings to the model's; two
 /// that lie in the other order along the head; two at one place that lie apart. It names the two
 /// and places that fit. x runs back [m].
 std::string place_contradiction(const Model& model, const ContourFile& file,
-                                const std::pair<double, double>& scales = any_scale);
+                                const std::pair<double, double>& scales = any_scale,
+                                double stretch = most_stretch);
 
 /// Places that fit the sensors' mutual distances: sensors in the order in which they lie behind the
 /// tip, the first about 10 mm behind it, each next by its usual distance from the one before. Of

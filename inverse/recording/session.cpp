@@ -221,11 +221,14 @@ AlignedRecording align_by_all(const Model& model, const TongueReach& reach, Sess
     result.judgement.faults.push_back(
         fmt::format("its axes were read as {}, and {} fits better: is it a mirror image?",
                     described(best, content), described(others.front(), content)));
-  if (content == Content::sensors)
-    if (std::string places =
-            doubtful_places(model, result.file, result.registration, palate.has_value());
+  if (content == Content::sensors) {
+    const auto& r = result.registration;
+    if (std::string places = doubtful_places(model, result.file, r, palate.has_value());
         !places.empty())
       result.judgement.faults.push_back(std::move(places));
+    else if (places = unlikely_places(model, result.file, r, palate.has_value()); !places.empty())
+      result.file.remarks.push_back("are the sensors where they are said to be? " + places);
+  }
   if (on_palate)
     result.judgement.faults.emplace_back(
         "its contours lie on the palate's trace: was the palate given as the tongue?");

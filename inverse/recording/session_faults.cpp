@@ -34,6 +34,23 @@ std::set<std::string> speakers_of(const SessionFile& session) {
   return names;
 }
 
+/// Those that a palate leaves open.
+std::pair<double, double> scales_about(const Registration& registration) {
+  const double scale = registration.transform.scale;
+  return {(1 - scale_slack) / scale, (1 + scale_slack) / scale};
+}
+
+/// Turned as the head is, of its own size.
+ContourFile as_the_head_is(ContourFile file, const Registration& registration) {
+  const Similarity& s = registration.transform;
+  for (ContourFrame& frame : file.frames)
+    for (ContourPoint& p : frame.points) {
+      const Vec2 at = s(flat(p.position)) / s.scale;
+      p.position = {at[0], p.position[1], at[1]};
+    }
+  return file;
+}
+
 }  // namespace
 
 void check_same_speaker(const SessionFile& target, const SessionFile& palate) {
@@ -74,27 +91,27 @@ bool is_the_palate(const ContourFile& target, const ContourFile& palate) {
 
 std::string doubtful_places(const Model& model, const ContourFile& turned,
                             const Registration& registration, bool by_palate) {
-  const bool knows = by_palate && turned.frames.size() >= many_frames;
-  const double scale = registration.transform.scale;
-  const std::pair<double, double> scales =
-      knows ? std::pair{(1 - scale_slack) / scale, (1 + scale_slack) / scale} : any_scale;
-  ContourFile level = turned;  // as the head is
-  for (ContourFrame& frame : level.frames)
-    for (ContourPoint& p : frame.points) {
-      const Vec2 at = registration.transform(flat(p.position)) / scale;
-      p.position = {at[0], p.position[1], at[1]};
-    }
-  if (std::string said = place_contradiction(model, level, scales); !said.empty()) return said;
+  const bool many = turned.frames.size() >= many_frames;
+  const auto scales = by_palate && many ? scales_about(registration) : any_scale;
+  if (std::string said = place_contradiction(model, as_the_head_is(turned, registration), scales);
+      !said.empty())
+    return said;
   double square = 0, count = 0;
   for (const Vec2& o : place_offsets(model, turned, registration.transform))
     square += o.squaredNorm(), ++count;
   const double off = std::sqrt(square / std::max(1.0, count));
-  const double most = turned.frames.size() >= many_frames ? far_places : far_in_few_frames;
+  const double most = many ? far_places : far_in_few_frames;
   if (off < most) return {};
   return fmt::format(
       "the sensors lie {:.0f} mm (root mean square) from where they are said to be glued, and "
       "speech moves them by less than {:.0f} mm: are they at these places?",
       1e3 * off, 1e3 * most);
+}
+
+std::string unlikely_places(const Model& model, const ContourFile& turned,
+                            const Registration& registration, bool by_palate) {
+  return place_contradiction(model, as_the_head_is(turned, registration),
+                             by_palate ? scales_about(registration) : any_scale, usual_stretch);
 }
 
 }  // namespace genio

@@ -22,5 +22,9 @@ std::vector<Vec2> place_offsets(const Model& model, const ContourFile& file, con
 /// registered. Empty where nothing does.
 std::string doubtful_places(const Model& model, const ContourFile& turned,
                             const Registration& registration, bool by_palate);
+/// What is seldom so of the places: distances that the tissue would have to be stretched for as it
+/// seldom is. For a remark; empty where there is nothing.
+std::string unlikely_places(const Model& model, const ContourFile& turned,
+                            const Registration& registration, bool by_palate);
 
 }  // namespace genio

@@ -105,8 +105,11 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     if (start.shape.size() > 0) here.start_shape = start.shape;
     here.start_by_unknown = start.by_unknown;
     here.rough_start = start.shape.size() == 0;
-    if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - watch.seconds()) <= 0)
+    if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - watch.seconds()) <= 0) {
+      // As when the first start was all that there was time for: to make the atlas takes long.
+      if (k == 0) last.status = InferStatus::deadline, last.message = "the deadline passed";
       break;
+    }
     last = (options.full_space ? infer_full_space : infer)(model, target, prior, tongue.workspace,
                                                            here);
     iterations += last.iterations;

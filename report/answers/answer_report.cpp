@@ -12,6 +12,7 @@
 #include "report/pictures/svg.hpp"
 #include "runs/results/answer_record.hpp"
 #include "runs/results/csv_text.hpp"
+#include "runs/results/laid.hpp"
 
 namespace genio {
 namespace {
@@ -96,12 +97,15 @@ void draw_forces(Svg& svg, const AnswerView& v) {
 }  // namespace
 
 std::string draw(const Model& model, const AnswerView& v) {
-  Svg svg(1110, 560);
+  Svg svg(1110, 596);
   svg.text(50, 30, v.title, 17, "start", "#111");
   svg.text(1060, 30,
            fmt::format("{}; RMS {:.2f} mm, max {:.2f} mm",
                        v.verdict == "none" ? v.status : v.verdict, v.rms_mm, v.max_mm),
            14, "end", "#111");
+  double y = 550;
+  for (const std::string& line : laid_words(laid_in(v.registration)))
+    svg.text(50, y += 16, line, 11, "start", "#555");
   draw_plane(svg, model, v);
   draw_forces(svg, v);
   return svg.str();

@@ -92,14 +92,14 @@ std::string frame_row(const PlannedRecording& r, int frame, const AnswerRecord* 
   std::string row =
       fmt::format("{},{},{},{}", csv_field(r.name), csv_field(r.file),
                   csv_field(a && !a->speaker.empty() ? a->speaker : r.speaker), frame);
-  if (!a) return row + ",,,,open" + std::string(8 + 7 * muscles.size(), ',') + "\n";
+  const std::string titles = laid_titles();
+  const auto commas = size_t(std::count(titles.begin(), titles.end(), ','));
+  if (!a) return row + ",,,,open" + std::string(5 + commas + 7 * muscles.size(), ',') + "\n";
   row += fmt::format(",{},{},{},{},{}", csv_number(a->time_s, 9), csv_field(a->label),
                      csv_field(a->recording), a->status, a->verdict);
   row += fmt::format(",{},{},{}", csv_number(a->rms_mm, 4), csv_number(a->max_mm, 4),
                      csv_number(a->chi2_per_dof, 4));
-  row += fmt::format(
-      ",{},{},{},{}", csv_number(a->registration.scale, 4), csv_number(a->registration.tilt_deg, 4),
-      csv_number(a->registration.palate_rms_mm, 4), a->registration.doubtful ? "yes" : "no");
+  row += "," + laid_fields(a->registration);
   for (const std::string& m : muscles)
     for (const auto* told :
          {&a->activation, &a->forces_N, &a->sd_N, &a->acts, &a->median_N, &a->low_N, &a->high_N})
@@ -110,8 +110,8 @@ std::string frame_row(const PlannedRecording& r, int frame, const AnswerRecord* 
 std::string corpus_table(const Plan& plan, const CorpusResults& results) {
   const std::set<std::string> muscles = muscles_of(results);
   std::string csv =
-      "recording,file,speaker,frame,time_s,label,take,status,verdict,rms_mm,max_mm,chi2_per_dof,"
-      "registration_scale,registration_tilt_deg,registration_palate_rms_mm,registration_doubtful";
+      "recording,file,speaker,frame,time_s,label,take,status,verdict,rms_mm,max_mm,chi2_per_dof," +
+      laid_titles();
   for (const std::string& m : muscles)
     csv += fmt::format(
         ",{0}_activation,{0}_N,{0}_sd_N,{0}_acts,{0}_median_N,{0}_low90_N,{0}_high90_N", m);

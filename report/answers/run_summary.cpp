@@ -56,10 +56,8 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
       for (const auto& [name, force] : a.forces_N) muscles.push_back(name);
       break;
     }
-  std::string csv =
-      "frame,time_s,label,recording,speaker,status,verdict,registration_scale,"
-      "registration_tilt_deg,registration_palate_rms_mm,registration_doubtful,rms_mm,max_mm,"
-      "chi2_per_dof";
+  std::string csv = "frame,time_s,label,recording,speaker,status,verdict," + laid_titles() +
+                    ",rms_mm,max_mm,chi2_per_dof";
   for (const auto& m : muscles)
     csv += fmt::format(",{0}_N,{0}_sd_N,{0}_acts,{0}_median_N,{0}_low90_N,{0}_high90_N", m);
   csv += "\n";
@@ -68,9 +66,7 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
   for (const auto& [frame, a] : answers) {
     csv += fmt::format("{},{},{},{},{},{},{}", frame, csv_number(a.time_s, 6), csv_field(a.label),
                        csv_field(a.recording), csv_field(a.speaker), a.status, a.verdict);
-    const AnswerRecord::Laid& laid = a.registration;
-    csv += fmt::format(",{},{},{},{}", csv_number(laid.scale, 4), csv_number(laid.tilt_deg, 4),
-                       csv_number(laid.palate_rms_mm, 4), laid.doubtful ? "yes" : "no");
+    csv += "," + laid_fields(a.registration);
     if (!a.converged()) {
       csv += std::string(3 + 6 * muscles.size(), ',') + "\n";
       continue;
@@ -90,8 +86,8 @@ void write_summary(const AnswerRecords& answers, const std::string& folder) {
   }
   write_text(folder + "/summary.csv", csv);
   if (muscles.empty()) return;
-  const std::string svg =
-      plot("Muscle forces, medians", "frame", "% of maximum", series, false, false);
+  const std::string svg = plot("Muscle forces, medians", "frame", "% of maximum", series, false,
+                               false, laid_words(answers.begin()->second.registration));
   write_text(folder + "/summary.svg", svg);
   write_png(folder + "/summary.png", svg, 1.5);
 }

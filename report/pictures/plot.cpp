@@ -24,7 +24,8 @@ double nice_step(double range) {
 }  // namespace
 
 std::string plot(const std::string& title, const std::string& x_label, const std::string& y_label,
-                 const std::vector<Series>& series, bool log_x, bool log_y) {
+                 const std::vector<Series>& series, bool log_x, bool log_y,
+                 const std::vector<std::string>& notes) {
   const auto at = [&](const Eigen::Vector2d& p) {
     return Eigen::Vector2d(log_x ? std::log10(p[0]) : p[0], log_y ? std::log10(p[1]) : p[1]);
   };
@@ -33,7 +34,7 @@ std::string plot(const std::string& title, const std::string& x_label, const std
     for (const auto& p : s.points) low = low.cwiseMin(at(p)), high = high.cwiseMax(at(p));
   const Eigen::Vector2d margin = 0.06 * (high - low).cwiseMax(1e-9);
   low -= margin, high += margin;
-  Svg svg(720, 430);
+  Svg svg(720, 430 + 16.0 * double(notes.size()));
   svg.text(70, 26, title, 15, "start", "#111");
   const Axes axes{low[0], high[0], low[1], high[1], 70, 40, 420, 330};
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
@@ -60,12 +61,15 @@ std::string plot(const std::string& title, const std::string& x_label, const std
     const char* colour = colours[i % std::size(colours)];
     std::vector<Eigen::Vector2d> line;
     for (const auto& p : series[i].points) line.push_back(at(p));
-    svg.polyline(axes, line, {colour, "none", 2});
+    const char* dash = i < std::size(colours) ? "" : "5,4";  // the colours come round again
+    svg.polyline(axes, line, {colour, "none", 2, dash});
     for (const auto& p : line) svg.circle(axes.px(p[0]), axes.py(p[1]), 3, {"white", colour, 0.7});
     const double y = axes.top + 16 + 20 * double(i);
-    svg.line(506, y, 528, y, {colour, "none", 3});
+    svg.line(506, y, 528, y, {colour, "none", 3, dash});
     svg.text(534, y + 4, series[i].name, 12, "start");
   }
+  for (size_t i = 0; i < notes.size(); ++i)
+    svg.text(axes.left, 430 + 16 * double(i), notes[i], 11, "start", "#555");
   return svg.str();
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "inverse/recording/base/curve_pieces.hpp"
+#include "inverse/recording/base/file_axes.hpp"
 #include "inverse/recording/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/scan_session.hpp"
@@ -117,6 +118,7 @@ Measured as_given(const Model& model, ContourFile file, const MeasuredOptions& o
   m.registration = {.judgement = judge(model, {}, midsagittal_points(file), false),
                     .units = file.model_frame ? "mm" : file.units,
                     .axes = "the model's",
+                    .points_order = points_order(file),
                     .by_palate = false,
                     .given = true};
   if (const auto surface = surface_points(file); !surface.empty()) {
@@ -153,6 +155,7 @@ Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOpt
   m.registration = {.judgement = a.judgement,
                     .units = a.file.units,
                     .axes = a.reading.text(a.file.format.content),
+                    .points_order = points_order(a.file),
                     .by_palate = !o.palate.empty(),
                     .bite_plane = a.bite_plane,
                     .head_points = a.head_points};

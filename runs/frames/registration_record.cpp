@@ -35,10 +35,11 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
                          {"short_tendon_off_mm", nullptr},
                          {"mandible_off_mm", nullptr},
                          {"from_rest_mm", 1e3 * j.from_rest},
-                         {"off_reach_mm", 1e3 * j.off_reach},
+                         {"off_reach_mm", nullptr},
                          {"behind_palate", j.behind_palate},
                          {"units", r.units},
                          {"axes", r.axes},
+                         {"points_order", nullptr},
                          {"by", r.given       ? "given"
                                 : r.by_palate ? "palate"
                                 : j.sideways  ? "shape"
@@ -46,6 +47,8 @@ nlohmann::json registration_json(const RegistrationRecord& r) {
                          {"doubtful", !j.faults.empty()},
                          {"reason", faults_text(j)},
                          {"forced", r.forced}};
+  if (!r.given) json["off_reach_mm"] = 1e3 * j.off_reach;
+  if (!r.points_order.empty()) json["points_order"] = r.points_order;
   if (r.by_palate && !r.given) json["palate_rms_mm"] = 1e3 * j.palate_rms;
   if (j.sideways) {
     json["roll_deg"] = (*j.sideways)[0] * 180 / std::numbers::pi;

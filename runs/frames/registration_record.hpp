@@ -11,8 +11,8 @@ namespace genio {
 
 struct RegistrationRecord {
   Judgement judgement;
-  std::string units, axes;                       ///< as they were read
-  bool by_palate = true;                         ///< false: by the contours alone
+  std::string units = {}, axes = {}, points_order = {};  ///< as they were read
+  bool by_palate = true;                                 ///< false: by the contours alone
   bool given = false;                            ///< the file is in the model's frame by itself
   bool forced = false;                           ///< answered although it failed its test
   std::optional<double> bite_plane = {};         ///< its tilt against the model's [rad]
@@ -20,8 +20,8 @@ struct RegistrationRecord {
 };
 
 /// `scale, tilt_deg, shift_mm, palate_rms_mm, bite_plane_deg, hyoid_off_mm,
-/// short_tendon_off_mm, mandible_off_mm, from_rest_mm, behind_palate, units, axes, by, doubtful,
-/// reason, forced`; of a scan also `roll_deg, yaw_deg, lateral_mm`.
+/// short_tendon_off_mm, mandible_off_mm, from_rest_mm, off_reach_mm, behind_palate, units, axes,
+/// points_order, by, doubtful, reason, forced`; of a scan also `roll_deg, yaw_deg, lateral_mm`.
 nlohmann::json registration_json(const RegistrationRecord& record);
 
 /// The view with the registration, of which its title tells where it was forced.

@@ -44,6 +44,7 @@ void refuse_axes(const MeasuredOptions& o, const FormatTraits& format) {
   if (!o.read.up.empty()) refuse("--y-grows", why);
   if (!o.read.axes.empty()) refuse("--axes", why);
   if (!o.palate.empty()) refuse("--palate", why + " already");
+  if (o.ignore_marks) refuse("--ignore-marks", why + " already");
   if (!o.bite_plane.empty()) refuse("--bite-plane", why + " already");
   for (const auto& [point, text] : given_head_points(o))
     if (!text.empty()) refuse(option_of(point), why + " already");
@@ -64,6 +65,10 @@ void refuse_unused(const MeasuredOptions& o, const FormatTraits& format, bool re
   for (const auto& [point, text] : given_head_points(o))
     if (!text.empty() && o.registered)
       refuse(option_of(point), "--registered says that the file is in the model's frame already");
+  const bool shows_no_head = format.content != Content::curves || o.registered;
+  if (o.ignore_marks && shows_no_head)
+    refuse("--ignore-marks",
+           "it leaves out what contours that are to be registered show of the head");
   if (!o.palate.empty() && o.registered)
     refuse("--palate", "--registered says that the file is in the model's frame already");
   if (o.read.mm_per_px > 0 && !o.read.units.empty() && o.read.units != "px")

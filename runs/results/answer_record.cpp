@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "runs/results/json_values.hpp"
 #include "runs/results/nesting.hpp"
 
 namespace genio {
@@ -66,12 +67,6 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
   return j;
 }
 
-/// NaN where there is no such number: JSON has none for what is not finite.
-double number(const nlohmann::json& object, const char* key) {
-  const auto it = object.find(key);
-  return it != object.end() && it->is_number() ? it->get<double>() : std::nan("");
-}
-
 /// The numbers among the members of an object.
 std::map<std::string, double> numbers(const nlohmann::json& answer, const char* object) {
   std::map<std::string, double> result;
@@ -95,21 +90,6 @@ std::map<std::string, double> estimated_values(const nlohmann::json& answer) {
   if (const auto it = answer.find("estimated"); it != answer.end() && it->is_object())
     for (const auto& [name, estimate] : it->items()) result[name] = number(estimate, "value");
   return result;
-}
-
-std::string word(const nlohmann::json& answer, const char* key, const char* otherwise) {
-  const auto it = answer.find(key);
-  return it != answer.end() && it->is_string() ? it->get<std::string>() : otherwise;
-}
-
-AnswerRecord::Laid registration_of(const nlohmann::json& answer) {
-  const auto it = answer.find("registration");
-  const nlohmann::json laid = it == answer.end() ? nlohmann::json::object() : *it;
-  const auto doubtful = laid.find("doubtful");
-  return {.scale = number(laid, "scale"),
-          .tilt_deg = number(laid, "tilt_deg"),
-          .palate_rms_mm = number(laid, "palate_rms_mm"),
-          .doubtful = doubtful != laid.end() && *doubtful == true};
 }
 
 }  // namespace
@@ -159,7 +139,7 @@ std::optional<AnswerRecord> read_record(const std::string& line) {
   r.median_N = numbers(answer, "median_N"), r.max_force_N = numbers(answer, "max_force_N");
   r.low_N = interval_ends(answer, 0), r.high_N = interval_ends(answer, 1);
   r.estimated = estimated_values(answer);
-  r.registration = registration_of(answer);
+  r.registration = laid_in(answer.value("registration", nlohmann::json::object()));
   return r;
 }
 

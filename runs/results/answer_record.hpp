@@ -6,6 +6,7 @@
 #include <string>
 
 #include "runs/results/answer_view.hpp"
+#include "runs/results/laid.hpp"
 
 namespace genio {
 
@@ -25,12 +26,7 @@ struct AnswerRecord {
   std::map<std::string, double> forces_N, sd_N, activation, acts, median_N, max_force_N, low_N,
       high_N;                               ///< by muscle; those of the 90 % interval
   std::map<std::string, double> estimated;  ///< other unknowns, each in its own unit
-  /// How the recording was laid beside the model; NaN where the answer does not tell.
-  struct Laid {
-    double scale, tilt_deg, palate_rms_mm;
-    bool doubtful;
-  };
-  Laid registration = {};
+  Laid registration = laid_in(std::string());
   std::string line;  ///< as it was written
 
   bool converged() const { return status == "converged"; }

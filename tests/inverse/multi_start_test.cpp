@@ -50,6 +50,14 @@ TEST_F(MultiStart, AWorkspaceOutlivesItsModel) {
   EXPECT_NO_THROW(infer_from_starts(copy, pulled({{"GGP", 3}}), Prior{}, own, once, {1}));
 }
 
+TEST_F(MultiStart, ADeadlineBeforeTheFirstStartIsADeadline) {
+  InferOptions soon;
+  soon.deadline_s = 1e-9;
+  InferWorkspace fresh(m);
+  const Answer a = infer_from_starts(m, pulled({{"GGP", 3}}), Prior{}, fresh, soon);
+  EXPECT_EQ(a.status, InferStatus::deadline) << a.message;
+}
+
 // From rest the descent once ended with IL at its maximum instead of SL curling the tip.
 TEST_F(MultiStart, ACurledTipIsNotTakenForItsOpposite) {
   const Target t = pulled({{"SL", 5.2}, {"HG", 1.6}, {"GGP", 3.3}});

@@ -202,15 +202,19 @@ ContourFile in_model_axes(ContourFile file, const FileAxes& axes, const std::str
   return file;
 }
 
-void remark_order(ContourFile& file) {
+std::string points_order(const ContourFile& file) {
   int back = 0, front = 0;  // frames whose last point lies behind the first, or before it
   for (const ContourFrame& frame : file.frames) {
     const auto& p = frame.points;
     if (p.size() > 1) (p.back().position[0] > p.front().position[0] ? back : front) += 1;
   }
-  if (back + front > 0 && holds_curves(file))
-    file.remarks.push_back(fmt::format("points run from {} (which does not count)",
-                                       back > front ? "tip to root" : "root to tip"));
+  if (back + front == 0 || !holds_curves(file)) return {};
+  return back > front ? "tip to root" : "root to tip";
+}
+
+void remark_order(ContourFile& file) {
+  if (const std::string order = points_order(file); !order.empty())
+    file.remarks.push_back(fmt::format("points run from {} (which does not count)", order));
 }
 
 ContourFile mirrored(ContourFile file) {

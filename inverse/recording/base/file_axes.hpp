@@ -31,6 +31,8 @@ ContourFile in_model_axes(ContourFile file, const FileAxes& axes, const std::str
 
 /// Adds to the remarks which way the points of its curves run.
 void remark_order(ContourFile& file);
+/// "tip to root" or "root to tip", as most of its curves run; empty where it holds none.
+std::string points_order(const ContourFile& file);
 
 /// The same file with x turned around.
 ContourFile mirrored(ContourFile file);

@@ -238,11 +238,22 @@ std::string TableNumbers::complaint(const std::string& field) const {
     return fmt::format(
         "{}: a decimal comma? {}; expected decimal points", in_quotes(field),
         points_ ? "Numbers before it have decimal points" : "Commas stand between the fields here");
+  if (trimmed(field).empty()) return "the field is empty";
   double value = 0;
   if (commas_ && parse_number(field, value))
     return fmt::format("{}: has a decimal point, and numbers before it have decimal commas",
                        in_quotes(field));
   return fmt::format("{} is not a finite number", in_quotes(field));
+}
+
+std::string other_count(size_t fields, const std::string& where, size_t expected,
+                        const std::string& line) {
+  const bool commas = fields > expected && line.find(',') != std::string::npos &&
+                      line.find_first_of("\t;") == std::string::npos;
+  return fmt::format("{} fields; the {} has {}{}", fields, where, expected,
+                     commas              ? ". Decimal commas, or a comma in a text without quotes?"
+                     : fields < expected ? ". Is the file cut short?"
+                                         : "");
 }
 
 }  // namespace genio

@@ -86,6 +86,11 @@ bool parse_number(const std::string& field, double& value);
 /// True of numbers with a decimal point or comma, and of what stands for a missing one.
 bool is_value(const std::string& field);
 
+/// What is wrong with a row of so many fields, where `where` has `expected`: "5 fields; the header
+/// has 4". `line` tells whether decimal commas may have done it.
+std::string other_count(size_t fields, const std::string& where, size_t expected,
+                        const std::string& line);
+
 /// Numbers of one table. It has decimal points or decimal commas, and never both.
 class TableNumbers {
  public:

@@ -133,6 +133,9 @@ std::vector<AaaKnot> knots_of(const std::vector<std::string>& fields, const Knot
     const std::string tx = cx < fields.size() ? fields[cx] : "";
     const std::string ty = cy < fields.size() ? fields[cy] : "";
     if (is_missing(tx) && is_missing(ty)) continue;
+    if (std::max(cx, cy) >= fields.size())
+      lines.fail(fmt::format("ends in field {}, within knot {}: is the file cut short?",
+                             fields.size(), k));
     AaaKnot knot;
     knot.place = k;
     for (const auto& [column, text, value] :

@@ -14,6 +14,7 @@ namespace {
 // Gaps between neighbouring knots of a tongue [mm]: any up to the first are its own, none beyond
 // the second; between them, those that are no wider than a few usual ones.
 constexpr double narrow_gap = 12, wide_gap = 40, usual_gaps = 3;
+constexpr size_t most_strays = 3;  // in a row, between knots of the line
 
 double distance(const AaaKnot& a, const AaaKnot& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -24,16 +25,29 @@ double widest_gap(const std::vector<AaaKnot>& knots) {
   return std::clamp(usual_gaps * median(std::move(gaps)), narrow_gap, wide_gap);
 }
 
-/// The longest run of knots without a wide gap: the outermost knots are often tracker noise.
+/// How many knots from `first` on stray from the line that ends in `last` and goes on behind them;
+/// none where it does not go on.
+size_t strays(const std::vector<AaaKnot>& knots, size_t first, const AaaKnot& last, double widest) {
+  for (size_t n = 1; n <= most_strays && first + n < knots.size(); ++n)
+    if (distance(last, knots[first + n]) <= double(n + 1) * widest) return n;
+  return 0;
+}
+
+/// The longest run of knots without a wide gap, but where a few stray from it: the outermost knots
+/// are often tracker noise.
 std::vector<AaaKnot> without_far(const std::vector<AaaKnot>& knots) {
   const double widest = widest_gap(knots);
   std::vector<AaaKnot> best, run;
-  for (const AaaKnot& knot : knots) {
-    if (!run.empty() && distance(run.back(), knot) > widest) {
-      if (run.size() > best.size()) best = run;
-      run.clear();
+  for (size_t k = 0; k < knots.size(); ++k) {
+    if (!run.empty() && distance(run.back(), knots[k]) > widest) {
+      if (const size_t n = strays(knots, k, run.back(), widest); n > 0) {
+        k += n;
+      } else {
+        if (run.size() > best.size()) best = run;
+        run.clear();
+      }
     }
-    run.push_back(knot);
+    run.push_back(knots[k]);
   }
   return run.size() > best.size() ? run : best;
 }

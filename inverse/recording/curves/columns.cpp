@@ -85,7 +85,7 @@ class Reader {
           unknown.empty() ? "no column is called x or y"
                           : fmt::format("column {} tells nothing for sure", in_quotes(unknown))));
     witnesses_.resize(roles_.others.size());
-    while (lines_.next_filled(line)) read_row(fields_of(line, separator_));
+    while (lines_.next_filled(line)) read_row(fields_of(line, separator_), line);
     end_frame();
   }
 
@@ -125,10 +125,10 @@ class Reader {
   }
 
   /// R leaves the title of its names of rows out.
-  size_t offset(const std::vector<std::string>& fields) {
+  size_t offset(const std::vector<std::string>& fields, const std::string& line) {
     const size_t more = fields.size() == titles_.size() + 1 ? 1 : 0;
     if (fields.size() != titles_.size() + more || (more_ && *more_ != more))
-      lines_.fail(fmt::format("{} fields; the header has {}", fields.size(), titles_.size()));
+      lines_.fail(other_count(fields.size(), "header", titles_.size(), line));
     more_ = more;
     return more;
   }
@@ -142,8 +142,8 @@ class Reader {
             in_quotes(titles_[roles_.others[k]]), current_, trimmed(titles_[roles_.others[k]])));
   }
 
-  void read_row(const std::vector<std::string>& fields) {
-    const size_t more = offset(fields);
+  void read_row(const std::vector<std::string>& fields, const std::string& line) {
+    const size_t more = offset(fields, line);
     const auto text = [&](const std::string& role) {
       std::string result;
       if (roles_.has(role))

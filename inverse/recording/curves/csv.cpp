@@ -104,10 +104,7 @@ RawContours read(const std::string& path, const ReadOptions&) {
   while (lines.next_filled(line)) {
     const Row row{column, lines, numbers, fields_of(line, separator)};
     if (row.fields.size() != header.size())
-      lines.fail(fmt::format("{} fields; the header has {}{}", row.fields.size(), header.size(),
-                             separator == ',' && row.fields.size() > header.size()
-                                 ? ". Decimal commas, or a comma in a text without quotes?"
-                                 : ""));
+      lines.fail(other_count(row.fields.size(), "header", header.size(), line));
     RowFrame of{
         row.whole("frame", 1e9), row.text("recording"), row.text("speaker"), row.text("label"), {}};
     if (!row.text("time_s").empty()) of.time_s = row.number("time_s");

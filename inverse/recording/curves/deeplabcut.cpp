@@ -54,7 +54,7 @@ RawContours read_csv(const std::string& path, const ReadOptions& o) {
   while (lines.next_filled(line)) {
     const auto fields = fields_of(line, separator);
     if (fields.size() != titles.size() + 1)
-      lines.fail(fmt::format("{} fields; the header has {}", fields.size(), titles.size() + 1));
+      lines.fail(other_count(fields.size(), "header", titles.size() + 1, line));
     table.add_row(trimmed(fields[0]), [&](size_t column) {
       double value = std::nan("");
       const std::string& field = fields[column + 1];

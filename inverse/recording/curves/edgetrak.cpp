@@ -66,8 +66,7 @@ Table table_of(TableLines& lines) {
     }
     fields.erase(fields.begin(), fields.begin() + long(std::min(indent, indentation(fields))));
     while (fields.size() > columns && trimmed(fields.back()).empty()) fields.pop_back();
-    if (fields.size() > columns)
-      lines.fail(fmt::format("{} fields; the first row has {}", fields.size(), columns));
+    if (fields.size() > columns) lines.fail(other_count(fields.size(), "first row", columns, line));
     if (fields.size() < columns)
       lines.fail(
           fmt::format("{} fields; the first row has {}. Points that are missing are empty "

@@ -79,6 +79,9 @@ RawContours read(const std::string& path, const ReadOptions& o) {
     if (fields.empty()) continue;
     if (layout.names.empty()) {
       titled = is_header(fields);
+      const bool commas = line.find(',') != std::string::npos;
+      if (!titled && commas && line.find_first_of(".\t;") == std::string::npos)
+        lines.fail("has commas and no decimal points: are they decimal commas between commas?");
       layout = titled ? by_header(fields, lines) : by_count(fields.size(), lines);
       table.names = layout.names;
       if (titled) continue;
@@ -86,8 +89,7 @@ RawContours read(const std::string& path, const ReadOptions& o) {
     // R writes a row's name before its values, and no title for it.
     if (titled && fields.size() == layout.columns + 1) fields.erase(fields.begin());
     if (fields.size() != layout.columns)
-      lines.fail(fmt::format("{} fields; the {} has {}", fields.size(),
-                             titled ? "header" : "first row", layout.columns));
+      lines.fail(other_count(fields.size(), titled ? "header" : "first row", layout.columns, line));
     auto& row = table.samples.emplace_back();
     auto& rms = table.rms.emplace_back();
     for (const Channel& c : layout.channels) {

@@ -31,7 +31,7 @@ RawContours read(const std::string& path, const ReadOptions& o) {
     if (trimmed(line).empty()) continue;
     const auto fields = sensor_fields(line);
     if (fields.size() > titles.size() || fields.size() < first.back() + width)
-      lines.fail(fmt::format("{} fields; the header has {}", fields.size(), titles.size()));
+      lines.fail(other_count(fields.size(), "header", titles.size(), line));
     const double time = numbers.value(fields[0], lines);
     if (!(time == time)) lines.fail("no time in the first column");
     table.times_s.push_back(time);

@@ -26,7 +26,7 @@ RawContours read(const std::string& path, const ReadOptions& o) {
     const auto fields = sensor_fields(line);
     if (fields.empty() || fields[0].starts_with('#')) continue;
     if (fields.size() != titles.size())
-      lines.fail(fmt::format("{} fields; the header has {}", fields.size(), titles.size()));
+      lines.fail(other_count(fields.size(), "header", titles.size(), line));
     std::vector<double> v;
     for (const auto& field : fields) v.push_back(numbers.value(field, lines));
     if (!std::isfinite(v[0])) lines.fail("no time in the first column");

@@ -65,6 +65,16 @@ TEST(SensorPlace, SensorsCloseTogetherAreNotTipBladeAndDorsum) {
   EXPECT_NEAR(places.at("dorsum"), 28e-3, 1.5e-3);
 }
 
+TEST(SensorPlace, SensorsSaidToBeTwiceAsFarApartAreUnlikely) {
+  const Model m = read_model(test::generic_model());
+  const std::vector<std::string> said = {"tip", "tip+20mm", "tip+40mm"};
+  const auto file = glued(m, said, {"tip+5mm", "tip+15mm", "tip+25mm"});
+  const std::string doubt = place_contradiction(m, file, any_scale, usual_stretch);
+  EXPECT_NE(doubt.find("By their distances these fit"), std::string::npos) << doubt;
+  const std::vector<std::string> places = {"tip+5mm", "tip+25mm", "tip+45mm"};
+  EXPECT_EQ(place_contradiction(m, glued(m, places, places, 0.9), any_scale, usual_stretch), "");
+}
+
 TEST(SensorPlace, SensorsInTheOtherOrderAreAContradiction) {
   const Model m = read_model(test::generic_model());
   const auto file = glued(m, {"tip", "tip+18mm", "tip+9mm"}, {"tip", "tip+9mm", "tip+18mm"});

@@ -84,6 +84,16 @@ TEST_F(Formats, KnotsBeyondAGapAreLeftOutInWords) {
             21u);
 }
 
+TEST_F(Formats, AKnotThatStraysCostsNoneOfItsNeighbours) {
+  const Spline t("Tongue", 20, 3, 60);
+  std::string values = t.values;
+  const size_t at = values.find('\t', values.find('\t', values.find('\t') + 1) + 1);
+  values = values.substr(0, at) + "\t-900" + values.substr(values.find('\t', at + 1));
+  const auto f = read_contours(write("s.tsv", before + t.titles + "\n" + begin + values + "\n"));
+  EXPECT_EQ(f.frames[0].points.size(), 19u);
+  EXPECT_EQ(f.frames[0].note, "1 knots beyond a gap left out");
+}
+
 TEST_F(Formats, AaaBlocksOfXAndYInTurn) {
   std::string pairs, confidences;
   for (size_t k = 0; k < line.size(); ++k) {

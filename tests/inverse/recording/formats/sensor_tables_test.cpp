@@ -43,6 +43,16 @@ TEST_F(Formats, DecimalCommasAreReadAndNeverMixedWithPoints) {
       std::string::npos);
 }
 
+TEST_F(Formats, DecimalCommasBetweenCommasAreNamed) {
+  const std::string header = "Ch1_X,Ch1_Y,Ch1_Z,Ch1_phi,Ch1_theta,Ch1_RMS,Ch1_Extra\n";
+  const std::string row = "-93,22,0,3,87,95,0,0,3,1,0,0,0,0\n";
+  EXPECT_NE(error(write("h.csv", header + row), sensors({{"1", "tip"}}))
+                .find("h.csv:2: 14 fields; the header has 7. Decimal commas"),
+            std::string::npos);
+  EXPECT_NE(error(write("n.csv", row), sensors({{"1", "tip"}})).find("decimal commas"),
+            std::string::npos);
+}
+
 TEST_F(Formats, FourteenChannelsWithoutAHeaderAreNoUltrasound) {
   std::string row;
   for (int c = 0; c < 14; ++c) row += fmt::format("{}\t1\t{}\t10\t20\t3\t0\t", -80 - c, 80 + c);
