@@ -15,8 +15,9 @@
 #include "cli/subcommands/info.hpp"
 #include "cli/subcommands/invert.hpp"
 #include "cli/subcommands/merge.hpp"
-#include "cli/subcommands/request.hpp"
-#include "cli/subcommands/serve.hpp"
+#include "cli/subcommands/plan.hpp"
+#include "cli/service/request.hpp"
+#include "cli/service/serve.hpp"
 #include "forward/base/types.hpp"
 
 namespace {
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
          {"import", "Make a model folder from foreign files", add_import},
          {"forward", "Shape from muscle forces", add_forward},
          {"invert", "Muscle forces from measured shapes in a file", add_invert},
+         {"plan", "What to measure next of a shape, to know its muscles better", add_plan},
          {"formats", "Files of measured shapes that are read", add_formats},
          {"merge", "Runs over several ranges of frames as one", add_merge},
          {"corpus", "Every recording of a table, here or on a cluster", add_corpus},

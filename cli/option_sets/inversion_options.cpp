@@ -5,7 +5,7 @@
 
 namespace genio::cli {
 
-void add_inversion_options(Options& options, InversionOptions& o) {
+void add_shape_options(Options& options, InversionOptions& o) {
   o.model = default_model();
   options.add("--model", o.model, "Model folder or model.toml");
   add_measured_options(options, o.measured);
@@ -14,6 +14,12 @@ void add_inversion_options(Options& options, InversionOptions& o) {
               "Descents a frame; more find other answers that fit (0: until the shape is "
               "explained)",
               {.range = {{0, 1000}}, .not_with = {"--dynamic"}});
+  options.flag("--robust", o.robust, "Noise with outliers (Student's t)");
+  options.flag("--bilateral", o.bilateral, "Left and right together");
+}
+
+void add_inversion_options(Options& options, InversionOptions& o) {
+  add_shape_options(options, o);
   options.flag("--sequence", o.sequence, "Activations walk from frame to frame",
                {.not_with = {"--smooth", "--dynamic"}});
   options.flag("--smooth", o.smooth, "The same, all frames as one smoothing problem",
@@ -32,8 +38,6 @@ void add_inversion_options(Options& options, InversionOptions& o) {
   options.flag("--full-space", o.full_space,
                "Positions and commands together as unknowns: slower, to check the default by",
                {.not_with = {"--smooth", "--dynamic"}});
-  options.flag("--robust", o.robust, "Noise with outliers (Student's t)");
-  options.flag("--bilateral", o.bilateral, "Left and right together");
   options.add("--deadline-s", o.deadline_s, "Time a frame may take", {.positive = true});
 }
 

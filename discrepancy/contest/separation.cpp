@@ -10,6 +10,7 @@
 #include "forward/base/median.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/statics/sensitivity.hpp"
+#include "inverse/planning/further_measurements.hpp"
 #include "inverse/shape/curvature.hpp"
 #include "inverse/target/comparison.hpp"
 #include "inverse/target/moved_target.hpp"
@@ -60,15 +61,21 @@ std::vector<int> seen_nodes(const Model& m, const Condition& condition) {
 
 /// What would be measured of a posture.
 Target measured(const Model& m, const Positions& x, const HeadPose& laid,
-                const std::vector<int>& nodes, double sigma) {
+                const std::vector<int>& nodes, double sigma, const std::string& further) {
   Target t = curve_target(m, x, line_points, sigma);
   for (int a : nodes) t.surface.push_back({node_position(x, a), sigma, a});
+  if (!further.empty()) {
+    const Target more = further_measurement(m, t, x, further).points;
+    t.surface.insert(t.surface.end(), more.surface.begin(), more.surface.end());
+    t.flesh = more.flesh;
+  }
   // Data that need a pose lie moved the other way.
   const HeadPose moved{-laid.shift, -laid.turn};
   const Vec2 middle = t.middle();
   const MovedTarget move(moved, middle);
   for (CurvePoint& c : t.curve) c.position = move(c.position);
   for (SurfacePoint& s : t.surface) s.position = move(s.position);
+  for (FleshPoint& f : t.flesh) f.position = move(f.position);
   return t;
 }
 
@@ -76,14 +83,14 @@ Target measured(const Model& m, const Positions& x, const HeadPose& laid,
 /// where there is none. `start`: near the shapes, then that of `a`.
 double difference(Tongue& a, const HeadPose& a_laid, Tongue& b, const HeadPose& b_laid,
                   const Experiment& e, const Observations& o, const std::vector<int>& nodes,
-                  double known_error, Positions& start) {
+                  double known_error, Positions& start, const std::string& further = {}) {
   const bool forces_known = known_error > 0;
   const Equilibrium x = a.posed(e, start);
   if (!x) return -1;
   start = x.x;
   const Equilibrium y = b.posed(e, x.x);
   if (!y) return -1;
-  const Target target = measured(b.model, y.x, b_laid, nodes, o.noise);
+  const Target target = measured(b.model, y.x, b_laid, nodes, o.noise, further);
   const Residuals r = Comparison(a.model, target)(x.x, a_laid);
   const auto unknowns = muscle_unknowns(a.model, o.bilateral && !forces_known);
   const Matrix solved = sensitivity_to_forces(
@@ -114,6 +121,10 @@ double error_of_forces(const Condition& c) {
     if (f.mean > 0) parts.push_back(std::max(near_zero, f.sd / f.mean));
   return parts.empty() ? usual_error : median(std::move(parts));
 }
+
+constexpr const char* further_texts[] = {"slice=tip+25mm", "slice=dorsum", "slice=root",
+                                         "slice=tip+25mm,dorsum,root",
+                                         "sensors=tip+5mm,tip+20mm,tip+35mm"};
 
 bool better(const Experiment& a, const Experiment& b) { return a.log_odds > b.log_odds; }
 
@@ -155,6 +166,17 @@ std::vector<Experiment> experiments(const PosedModel& one, const PosedModel& oth
   std::erase_if(all, [](const Experiment& e) { return e.log_odds < 0; });
   std::stable_sort(all.begin(), all.end(), better);
   if (all.size() > most) all.resize(most);
+  if (!all.empty()) {
+    Experiment& best = all.front();
+    Positions start = a.model.rest;
+    for (const char* text : further_texts) {
+      const double odds =
+          difference(a, one.pose, b, other.pose, best, o, nodes, known, start, text);
+      if (odds >= 0) best.further.emplace_back(text, odds);
+    }
+    std::stable_sort(best.further.begin(), best.further.end(),
+                     [](const auto& x, const auto& y) { return x.second > y.second; });
+  }
   return all;
 }
 

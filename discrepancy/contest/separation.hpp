@@ -21,6 +21,9 @@ struct Experiment {
   std::map<std::string, double> forces;  ///< of both sides together [N]
   double pitch = 0;                      ///< head tilted backwards [deg]
   double log_odds = 0;                   ///< expected of its shape for one model against the other
+  /// The same where more is measured of it, see further_measurement(), the most telling one first;
+  /// of the best posture alone.
+  std::vector<std::pair<std::string, double>> further = {};
   std::string label() const;
 };
 
@@ -29,7 +32,7 @@ struct Experiment {
 /// differ most, in units of the noise, after the posture's own forces did what they can to make up
 /// for it; the best first. Measured as the observations' first condition is. `log_odds` is half the
 /// squared difference, what a likelihood ratio brings on average. Postures that have no equilibrium
-/// are left out.
+/// are left out. Of the best one `further` says what more slices and sensors would bring.
 std::vector<Experiment> experiments(const PosedModel& one, const PosedModel& other,
                                     const Observations& observations, size_t most = 5);
 

@@ -28,7 +28,7 @@ struct SumOfTerms : Terms... {
 
 /// Beliefs in the terms people have them in; all of them Gaussian, within the muscles' maxima.
 /// Unknowns and rows of the prior come in this order. EMG stands before effort, which speaks of
-/// the muscles that are left.
+/// the muscles that are left; any may rest.
 struct Prior : SumOfTerms<EmgTerm, EffortTerm, SymmetryTerm, ParametersTerm, HeadPoseTerm,
                           CocontractionTerm, WalkTerm, FixedForcesTerm> {};
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "inverse/sequence/motion_problem.hpp"
+#include "inverse/shape/settled_posterior.hpp"
 #include "inverse/shape/summary.hpp"
 #include "inverse/target/comparison.hpp"
 
@@ -77,13 +78,13 @@ void summarise(MotionProblem& problem, const Vector& u, const ModelError& error,
   for (size_t k = 0; k < answer.frames.size(); ++k) {
     const Residuals& r = answer.frames[k].residuals;
     const auto count = r.values.size();
-    const double displacement =
-        displacement_from_rest(problem.comparisons()[k], answer.frames[k].shape);
-    const auto erring = [&](double part) {
-      return model_error_covariance(r, std::max(error.least, part * displacement), error.length);
-    };
-    wide.block(first, first, count, count) = erring(error.part);
-    left.block(first, first, count, count) = erring(error.left);
+    const Comparison& comparison = problem.comparisons()[k];
+    const Positions& x = answer.frames[k].shape;
+    const double way = displacement_from_rest(comparison, x);
+    wide.block(first, first, count, count) =
+        model_error_covariance(r, std::max(error.least, error.part * way), error.length);
+    left.block(first, first, count, count) =
+        unabsorbed_error(r, error, way, ways_from_rest(r, x, comparison.rest()));
     residuals.segment(first, count) = r.values;
     first += count;
   }

@@ -21,7 +21,7 @@ RestBelief rest_belief(const std::vector<Unknown>& unknowns, const PriorTerms& p
   RestBelief belief;
   belief.slab = Vector::Zero(Eigen::Index(which.size()));
   for (size_t k = 0; k < which.size(); ++k)
-    if (prior.muscles_rest) belief.slab[Eigen::Index(k)] = prior.effort[which[k]];
+    belief.slab[Eigen::Index(k)] = prior.slab[which[k]];
   belief.partner.assign(which.size(), -1);
   const auto other = other_sides(unknowns);
   for (size_t a = 0; a < which.size(); ++a)
@@ -32,7 +32,7 @@ RestBelief rest_belief(const std::vector<Unknown>& unknowns, const PriorTerms& p
   return belief;
 }
 
-/// Data and prior about the point, without effort where a muscle may rest.
+/// Data and prior about the point, without effort where a muscle may rest, which has a slab for it.
 QuadraticDensity quadratic(const ObjectivePoint& p, const PriorTerms& prior,
                            const std::vector<Eigen::Index>& which, const Vector& slab,
                            const Matrix& covariance) {
@@ -42,7 +42,7 @@ QuadraticDensity quadratic(const ObjectivePoint& p, const PriorTerms& prior,
   QuadraticDensity d{prior.hessian()(which, which), {}, prior.lower(which), prior.upper(which)};
   Vector gradient = prior.gradient(p.activations)(which);
   for (Eigen::Index i = 0; i < slab.size(); ++i)
-    if (const double sd = slab[i]; sd > 0)
+    if (const double sd = prior.effort[which[size_t(i)]]; sd > 0 && slab[i] > 0)
       d.hessian(i, i) -= 1 / (sd * sd), gradient[i] -= z[i] / (sd * sd);
   d.hessian += j.transpose() * weighted;
   gradient += weighted.transpose() * p.residuals.values;
@@ -78,17 +78,20 @@ void spread_forces(const std::vector<Unknown>& unknowns, const PriorTerms& prior
 
 }  // namespace
 
-ActingPosterior acting_posterior(const ObjectivePoint& point, const std::vector<Unknown>& unknowns,
-                                 const PriorTerms& prior, const ModelError& error, double way) {
-  ActingPosterior result{prior.open(), {}, {}, {}};
-  result.belief = rest_belief(unknowns, prior, result.which);
-  const Residuals& r = point.residuals;
+Matrix residual_covariance(const Residuals& r, const ModelError& error, double way) {
   Matrix covariance =
       model_error_covariance(r, std::max(error.least, error.rough * way), error.rough_length) +
       model_error_covariance(r, error.smooth * way, error.smooth_length);
   covariance.diagonal().array() += 1;
-  const QuadraticDensity density =
-      quadratic(point, prior, result.which, result.belief.slab, covariance);
+  return covariance;
+}
+
+ActingPosterior acting_posterior(const ObjectivePoint& point, const std::vector<Unknown>& unknowns,
+                                 const PriorTerms& prior, const ModelError& error, double way) {
+  ActingPosterior result{prior.open(), {}, {}, {}};
+  result.belief = rest_belief(unknowns, prior, result.which);
+  const QuadraticDensity density = quadratic(point, prior, result.which, result.belief.slab,
+                                             residual_covariance(point.residuals, error, way));
   result.samples =
       sample(density, result.belief, acting_states(density, result.belief), sample_count);
   result.centre = result.samples.values * result.samples.weights;

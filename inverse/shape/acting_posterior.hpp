@@ -15,6 +15,9 @@ struct ActingPosterior {
   WeightedSamples samples;  ///< with the model's error
 };
 
+/// Covariance of the residuals, noise and the model's error together, in units of the noise.
+Matrix residual_covariance(const Residuals& residuals, const ModelError& error, double way);
+
 /// By the derivative of the shape at a point, with all terms of the prior, effort apart: what may
 /// rest has a point and a slab in its place, see acting.hpp. The model errs by two fields over the
 /// surface, which weigh the residuals, and by a factor of each muscle's force, which spreads the

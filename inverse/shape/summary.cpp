@@ -7,15 +7,13 @@
 #include <cmath>
 
 #include "inverse/posterior/box_integral.hpp"
-#include "inverse/shape/acting_posterior.hpp"
 #include "inverse/shape/mirrored.hpp"
+#include "inverse/shape/settled_posterior.hpp"
 
 namespace genio {
 namespace {
 
 constexpr int prior_sample_count = 500;
-constexpr int most_turns = 2;     // derivatives taken again
-constexpr double straight = 0.1;  // standard deviations a row that do not change a posterior
 
 std::string list(const std::vector<std::string>& names) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
@@ -23,41 +21,12 @@ std::string list(const std::vector<std::string>& names) {
 
 }  // namespace
 
-double displacement_from_rest(const Comparison& comparison, const Positions& x) {
-  const auto& nodes = comparison.line().nodes();
-  double sum = 0;
-  for (int a : nodes)
-    sum += (node_position(x, a) - node_position(comparison.rest(), a)).squaredNorm();
-  return std::sqrt(sum / double(nodes.size()));
-}
-
 LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint& optimum) {
   return local_posterior(objective.prior(), optimum.activations, optimum.gradient,
                          objective.exact_hessian(optimum), objective.gauss_newton(optimum));
 }
 
 namespace {
-
-/// The posterior by the derivative at its own mean, as far as that changes it.
-ActingPosterior settled_posterior(Objective& objective, const ObjectivePoint& optimum,
-                                  const Comparison& comparison, const ModelError& error) {
-  const auto by = [&](const ObjectivePoint& p) {
-    return acting_posterior(p, objective.unknowns(), objective.prior(), error,
-                            displacement_from_rest(comparison, p.equilibrium.x));
-  };
-  ActingPosterior posterior = by(optimum);
-  ObjectivePoint here = optimum;
-  for (int k = 0; k < most_turns; ++k) {
-    Vector mean = here.activations;
-    mean(posterior.which) = posterior.centre;
-    const ObjectivePoint* there = objective.at(mean);
-    if (!there || nonlinearity(here, *there) < straight) break;
-    if (!(there = objective.derivatives(mean))) break;
-    here = *there;
-    posterior = by(here);
-  }
-  return posterior;
-}
 
 /// Fills the estimates of muscles and others.
 void set_estimates(const Objective& objective, const ActingPosterior& posterior,
@@ -104,7 +73,7 @@ void summarise_posterior(Objective& objective, const ObjectivePoint& point,
   const Vector& z = optimum.activations;
   const LocalPosterior narrow = local_posterior(objective, optimum);
   const auto& which = narrow.which;
-  ActingPosterior posterior = settled_posterior(objective, optimum, comparison, error);
+  ActingPosterior posterior = settled_posterior(objective, optimum, comparison, error).posterior;
   answer.mirrored = mix_mirrored(objective, optimum, posterior);
   set_estimates(objective, posterior, narrow, z, answer);
 
@@ -117,10 +86,10 @@ void summarise_posterior(Objective& objective, const ObjectivePoint& point,
     if (c.kind == Unknown::Kind::muscle && side != 0)
       (side > 0 ? at_maximum : at_zero).push_back(c.name);
   }
-  const Matrix left = model_error_covariance(
-      optimum.residuals,
-      std::max(error.least, error.left * displacement_from_rest(comparison, optimum.equilibrium.x)),
-      error.length);
+  const Positions& x = optimum.equilibrium.x;
+  const Matrix left =
+      unabsorbed_error(optimum.residuals, error, displacement_from_rest(comparison, x),
+                       ways_from_rest(optimum.residuals, x, comparison.rest()));
   std::vector<Unknown> open;
   for (auto i : which) open.push_back(unknowns[size_t(i)]);
   answer.unidentified =

@@ -9,10 +9,6 @@ namespace genio {
 /// The posterior about an optimum of the objective.
 LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint& optimum);
 
-/// How far the shape's midsagittal line lies from rest, root mean square [m]: what the model's
-/// error is a part of.
-double displacement_from_rest(const Comparison& comparison, const Positions& x);
-
 /// Fills estimates, unidentified groups, chi2, verdict and evidence of `answer` from the optimum's
 /// derivatives.
 ///
@@ -21,8 +17,7 @@ double displacement_from_rest(const Comparison& comparison, const Positions& x);
 /// passed is `explained`. Otherwise `unreachable` when the Gauss-Newton step of the problem without
 /// bounds would take away at least half of the excess (the bounds stop it), else `mismatch`.
 ///
-/// The posterior is that of acting_posterior(). Where the shape's derivative at the optimum does
-/// not foretell the shape at the posterior's mean, it is taken again there.
+/// The posterior is that of settled_posterior().
 void summarise_posterior(Objective& objective, const ObjectivePoint& optimum,
                          const Comparison& comparison, const ModelError& error, Answer& answer);
 

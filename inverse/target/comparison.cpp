@@ -65,14 +65,32 @@ void compare_curve(const CurvePoint& point, const TongueLine& line, const Positi
   const auto c = line.closest(x, q);
   const Vector w = line.weights(c.t);
   const auto& nodes = line.nodes();
+  // r^2 = (across / sigma)^2 + (beyond the end / end_sigma)^2, with the sign of across.
+  const double across = c.distance / point.sigma;
+  Vec2 slope = c.normal / point.sigma;  // dr / dq
+  double r = across;
+  std::vector<Vec2> of_end(nodes.size(), Vec2::Zero());  // - d beyond / d node
+  Vec2 end = q - c.distance * c.normal;
+  if (c.beyond != 0) {
+    const double t = std::clamp(c.t, 0.0, line.length()), end_sigma = past_end_sigma(point.sigma);
+    const Vec2 along = line.control(x) * line.weights(t, 1), tangent = along.normalized();
+    const Vector at = line.weights(t), turns = line.weights(t, 1);
+    r = std::copysign(std::hypot(across, c.beyond / end_sigma), across);
+    const double part = c.beyond / (end_sigma * end_sigma * r);
+    slope = across / r * slope + part * tangent;
+    for (size_t k = 0; k < nodes.size(); ++k)
+      of_end[k] = part * (at[Eigen::Index(k)] * tangent -
+                          c.distance / along.norm() * turns[Eigen::Index(k)] * c.normal);
+    end -= c.beyond * tangent;
+  }
   std::vector<std::pair<int, Vec3>> gradient;
   for (size_t k = 0; k < nodes.size(); ++k) {
-    const Vec2 g = -w[Eigen::Index(k)] / point.sigma * c.normal;
+    const Vec2 g =
+        -(across == r ? 1 : across / r) * w[Eigen::Index(k)] / point.sigma * c.normal - of_end[k];
     gradient.emplace_back(nodes[k], Vec3(g[0], 0, g[1]));
   }
-  rows.row(c.distance / point.sigma, std::move(gradient), q, c.normal / point.sigma, point.sigma);
-  const Vec2 foot = q - c.distance * c.normal;
-  rows.point(std::abs(c.distance), Vec3(foot[0], 0, foot[1]));
+  rows.row(r, std::move(gradient), q, slope, point.sigma);
+  rows.point(std::hypot(c.distance, c.beyond), Vec3(end[0], 0, end[1]));
 }
 
 void compare_flesh(const FleshPoint& point, const Positions& x, const MovedTarget& moved,
@@ -184,7 +202,14 @@ Residuals Comparison::operator()(const Positions& x, const HeadPose& pose) const
   return std::move(rows).result();
 }
 
+double past_end_sigma(double sigma) { return std::hypot(sigma, 2e-3); }
+
 Matrix model_error_covariance(const Residuals& residuals, double sd, double length) {
+  return model_error_covariance(residuals,
+                                Vector::Constant(Eigen::Index(residuals.rows.size()), sd), length);
+}
+
+Matrix model_error_covariance(const Residuals& residuals, const Vector& sd, double length) {
   const auto count = Eigen::Index(residuals.rows.size());
   Matrix c = Matrix::Zero(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
@@ -193,8 +218,30 @@ Matrix model_error_covariance(const Residuals& residuals, double sd, double leng
       if (a.axis != b.axis) continue;
       const double apart =
           (residuals.places[size_t(a.point)] - residuals.places[size_t(b.point)]).squaredNorm();
-      c(i, j) = c(j, i) = sd * sd * a.scale * b.scale * std::exp(-0.5 * apart / (length * length));
+      c(i, j) = c(j, i) =
+          sd[i] * sd[j] * a.scale * b.scale * std::exp(-0.5 * apart / (length * length));
     }
+  return c;
+}
+
+Vector ways_from_rest(const Residuals& residuals, const Positions& x, const Positions& rest) {
+  Vector ways(Eigen::Index(residuals.gradient.size()));
+  for (size_t i = 0; i < residuals.gradient.size(); ++i) {
+    Vec3 moved = Vec3::Zero();
+    double weight = 0;
+    for (const auto& [node, g] : residuals.gradient[i])
+      moved += g.norm() * (node_position(x, node) - node_position(rest, node)), weight += g.norm();
+    ways[Eigen::Index(i)] = weight > 0 ? moved.norm() / weight : 0;
+  }
+  return ways;
+}
+
+Matrix unabsorbed_error(const Residuals& residuals, const ModelError& error, double way,
+                        const Vector& ways) {
+  const Vector own = (error.left * ways).cwiseMax(error.least);
+  Matrix c = model_error_covariance(residuals, own, error.left_length);
+  if (error.left_of_another > 0)
+    c += model_error_covariance(residuals, error.left_of_another * way, error.length);
   return c;
 }
 

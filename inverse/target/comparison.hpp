@@ -12,28 +12,40 @@ namespace genio {
 
 /// How wrong the model itself may be: other anatomy, fibre directions, discretisation. Standard
 /// deviations of Gaussian fields on the tongue's surface are parts of the line's way from rest
-/// (root mean square).
+/// (root mean square), or of each place's own.
 struct ModelError {
-  double left = 0.05;     ///< of what a fit cannot absorb, for the verdict
-  double length = 0.012;  ///< over which that is alike [m]
-  double least = 1e-4;    ///< of any field [m]
+  /// Of what a fit cannot absorb, for the verdict: of each place's own way, alike over a short
+  /// length. What meshes, fibres and tissue laws do was measured so, see docs/inversion-method.md.
+  double left = 0.06, left_length = 4e-3;
+  double left_of_another = 0;  ///< and of the line's way, with `length`: another speaker's anatomy
+  double length = 0.012;       ///< over which that is alike [m]
+  double least = 1e-4;         ///< of any field [m]
   // For the posterior, set by `genio bench calibration`: a rough field, a smooth one, and a factor
   // of every muscle's force.
   double rough = 0.05, rough_length = 6e-3, smooth = 0.06, smooth_length = 0.02;
   /// Of the logarithm of what a newton does: at rest, and more a metre of the way from it, for the
   /// law of the tissue shows where it is strained.
   double efficacy_sd = 0.2, efficacy_by_way = 40;
-  /// efficacy_sd of a speaker who is laid beside the model.
-  static constexpr double another_speaker = 0.8;
+  /// The same for a speaker who is laid beside the model.
+  ModelError of_another_speaker() const {
+    ModelError other = *this;
+    other.efficacy_sd = 0.8, other.left_of_another = 0.05;
+    return other;
+  }
   // For a movement, whose posterior is a Gaussian, set by `genio bench blind`.
-  double part = 0.33;  ///< with the length of `left`
+  double part = 0.33;  ///< with `length`
 };
+
+/// Standard deviation of how far past the end of the line a contour's point is: where a contour
+/// ends is a matter of who traced it, to some 2 mm [m].
+double past_end_sigma(double sigma);
 
 /// Noise-weighted residuals and their derivatives.
 struct Residuals {
-  /// Distance over sigma r; with Student's t noise sign(r) sqrt(nu log(1 + r^2 / nu)), whose half
-  /// square is the log-likelihood's loss (Lange, Little & Taylor 1989, for fixed nu, scaled to unit
-  /// curvature at 0).
+  /// Distance over sigma r, of a curve's point past the end of the line with how far past over 2
+  /// mm; with Student's t noise sign(r) sqrt(nu log(1 + r^2 / nu)), whose half square is the
+  /// log-likelihood's loss (Lange, Little & Taylor 1989, for fixed nu, scaled to unit curvature at
+  /// 0).
   Vector values;
   std::vector<std::vector<std::pair<int, Vec3>>>
       gradient;  ///< d value / d x_node [1/m], a row each
@@ -63,6 +75,7 @@ class Comparison {
   const Positions& rest() const { return rest_; }
   /// The middle of the target, which a head pose turns about, (x, z) [m].
   const Vec2& middle() const { return middle_; }
+  void turn_about(const Vec2& middle) { middle_ = middle; }
   /// The nodes that residuals may depend on, rising.
   const std::vector<int>& nodes() const { return nodes_; }
 
@@ -78,6 +91,16 @@ class Comparison {
 
 /// Covariance of the residuals that a model error of standard deviation `sd` [m] makes.
 Matrix model_error_covariance(const Residuals& residuals, double sd, double length);
+/// The same of one standard deviation a row.
+Matrix model_error_covariance(const Residuals& residuals, const Vector& sd, double length);
+
+/// How far the surface is from rest where each residual was taken [m].
+Vector ways_from_rest(const Residuals& residuals, const Positions& x, const Positions& rest);
+
+/// What a fit leaves of the model's own error, as a covariance of the residuals. `way`: of the line
+/// from rest, root mean square; `ways`: as of ways_from_rest() [m].
+Matrix unabsorbed_error(const Residuals& residuals, const ModelError& error, double way,
+                        const Vector& ways);
 
 /// d residuals / d parameters: rows as in Residuals, `positions` = dx/dp (3 n x count).
 Matrix residual_jacobian(const Residuals& residuals, const Matrix& positions);

@@ -1,6 +1,8 @@
 #include "inverse/target/comparison_curvature.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 
 #include "forward/geometry/surfaces/closest_point.hpp"
 #include "inverse/target/moved_target.hpp"
@@ -31,6 +33,19 @@ void add(const Matrix& m, const std::vector<int>& at, Entries& entries) {
   for (Eigen::Index i = 0; i < m.rows(); ++i)
     for (Eigen::Index j = 0; j < m.cols(); ++j)
       if (m(i, j) != 0) entries.emplace_back(at[size_t(i)], at[size_t(j)], m(i, j));
+}
+
+/// r with r^2 = across^2 + (part beyond)^2 and the sign of `across`.
+Distance past_end(const Distance& across, const Distance& beyond, double part) {
+  const double r = std::copysign(std::hypot(across.value, part * beyond.value), across.value);
+  const double square = part * part;
+  Distance d{
+      r, (across.value * across.first + square * beyond.value * beyond.first) / r, {}, across.at};
+  d.second = (across.first * across.first.transpose() + across.value * across.second +
+              square * (beyond.first * beyond.first.transpose() + beyond.value * beyond.second) -
+              d.first * d.first.transpose()) /
+             r;
+  return d;
 }
 
 /// The point slides along the line as either moves: with e = q - c = d n, e . c' = 0 gives dt, and
@@ -65,7 +80,28 @@ Distance line_distance(const CurvePoint& point, const TongueLine& line, const Po
   Matrix second = over * (-big * (b * t.transpose() + t * b.transpose()) +
                           c.distance * b * b.transpose() - k * big * t * t.transpose());
   second(2 * nodes + 2, 2 * nodes + 2) += c.normal.dot(moved.by_turn_twice(q));
-  return {c.distance, std::move(first), std::move(second), std::move(at)};
+  Distance across{c.distance, std::move(first), std::move(second), std::move(at)};
+  if (c.beyond == 0) return across;
+  // Past the end e tau, e from the end's node: the straight end turns by f = n . dc' / s, so that
+  //   d_i = e_i . tau + (e . n) f_i,
+  //   d_ij = (e_i . n) f_j + f_i (e_j . n) - (e . n) (f_i g_j + g_i f_j) - d f_i f_j + tau . q_ij,
+  // g = tau . dc' / s.
+  const Vector w_end = line.weights(std::clamp(c.t, 0.0, line.length()));
+  Vector to_normal = Vector::Zero(2 * nodes + 3), to_tangent = to_normal, f = b / s, g = to_normal;
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    to_normal.segment<2>(2 * i) = -w_end[i] * c.normal;
+    to_tangent.segment<2>(2 * i) = -w_end[i] * tangent;
+    g.segment<2>(2 * i) = slope[i] / s * tangent;
+  }
+  to_normal.tail<3>() = by_pose.transpose() * c.normal;
+  to_tangent.tail<3>() = by_pose.transpose() * tangent;
+  Distance beyond{c.beyond, to_tangent + c.distance * f,
+                  to_normal * f.transpose() + f * to_normal.transpose() -
+                      c.distance * (f * g.transpose() + g * f.transpose()) -
+                      c.beyond * f * f.transpose(),
+                  across.at};
+  beyond.second(2 * nodes + 2, 2 * nodes + 2) += tangent.dot(moved.by_turn_twice(q));
+  return past_end(across, beyond, point.sigma / past_end_sigma(point.sigma));
 }
 
 /// From a distance over the corners of a facet to one over its nodes: its middle is their mean.

@@ -2,12 +2,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 namespace genio {
 namespace {
 
 constexpr int samples_per_interval = 8;
-constexpr double overhang = 0.02;  // how far the straight ends are searched [m]
+constexpr double rounding = 1.5e-3;  // on both sides of a corner [m]
 
 }  // namespace
 
@@ -19,40 +20,29 @@ TongueLine::TongueLine(const Model& model) : nodes_(model.midsagittal) {
     knots_[k] = knots_[k - 1] + Vec2(step[0], step[2]).norm();
     if (nodes_[k] == model.landmarks.tip) tip_ = knots_[k];
   }
-  // Natural cubic spline: tridiagonal conditions on the second derivatives.
-  Matrix a = Matrix::Identity(n, n), b = Matrix::Zero(n, n);
-  for (int k = 1; k + 1 < n; ++k) {
-    const double h0 = knots_[k] - knots_[k - 1], h1 = knots_[k + 1] - knots_[k];
-    a(k, k - 1) = h0, a(k, k) = 2 * (h0 + h1), a(k, k + 1) = h1;
-    b(k, k - 1) = 6 / h0, b(k, k) = -6 / h0 - 6 / h1, b(k, k + 1) = 6 / h1;
-  }
-  bend_ = a.partialPivLu().solve(b);
   const int count = samples_per_interval * n;
   dense_.resize(count + 1, n);
-  for (int i = 0; i <= count; ++i)
-    dense_.row(i) = weights(-overhang + (length() + 2 * overhang) * i / count);
+  for (int i = 0; i <= count; ++i) dense_.row(i) = weights(length() * i / count);
 }
 
 Vector TongueLine::weights(double t, int derivative) const {
   const int n = int(knots_.size());
-  const double inside = std::clamp(t, 0.0, length());
-  if (t != inside)  // straight continuation
-    return derivative == 0   ? Vector(weights(inside, 0) + (t - inside) * weights(inside, 1))
-           : derivative == 1 ? weights(inside, 1)
-                             : Vector(Vector::Zero(n));
-  int i = int(std::upper_bound(knots_.begin(), knots_.end(), t) - knots_.begin());
-  i = std::clamp(i, 1, n - 1);
-  const double h = knots_[i] - knots_[i - 1], u = (knots_[i] - t) / h, v = 1 - u;
   Vector w = Vector::Zero(n);
-  if (derivative == 0) {
-    w[i - 1] = u, w[i] = v;
-    w += h * h / 6 *
-         ((u * u * u - u) * bend_.row(i - 1) + (v * v * v - v) * bend_.row(i)).transpose();
-  } else if (derivative == 1) {
-    w[i - 1] = -1 / h, w[i] = 1 / h;
-    w += h / 6 * ((1 - 3 * u * u) * bend_.row(i - 1) + (3 * v * v - 1) * bend_.row(i)).transpose();
-  } else {
-    w = (u * bend_.row(i - 1) + v * bend_.row(i)).transpose();
+  const int i =
+      std::clamp(int(std::upper_bound(knots_.begin(), knots_.end(), t) - knots_.begin()), 1, n - 1);
+  const double h = knots_[i] - knots_[i - 1];
+  if (derivative == 0) w[i - 1] = (knots_[i] - t) / h, w[i] = (t - knots_[i - 1]) / h;
+  if (derivative == 1) w[i - 1] = -1 / h, w[i] = 1 / h;
+  // What rounding adds at a corner times the change of slope there.
+  for (int k = 1; k + 1 < n; ++k) {
+    const double s = t - knots_[k], left = rounding - std::abs(s);
+    if (left <= 0) continue;
+    const double square = rounding * rounding;
+    const double added = derivative == 0   ? left * left * left / (6 * square)
+                         : derivative == 1 ? (s < 0 ? 1 : -1) * left * left / (2 * square)
+                                           : left / square;
+    const double before = knots_[k] - knots_[k - 1], after = knots_[k + 1] - knots_[k];
+    w[k - 1] += added / before, w[k] -= added / before + added / after, w[k + 1] += added / after;
   }
   return w;
 }
@@ -71,11 +61,12 @@ TongueLine::Closest TongueLine::closest(const Positions& x, const Vec2& q) const
   const Eigen::Matrix2Xd line = p * dense_.transpose();
   Eigen::Index best = 0;
   (line.colwise() - q).colwise().squaredNorm().minCoeff(&best);
-  const double spacing = (length() + 2 * overhang) / double(dense_.rows() - 1);
-  const double low = -overhang + spacing * double(std::max<Eigen::Index>(best - 1, 0));
-  const double high = low + 2 * spacing;
-  double t = -overhang + spacing * double(best);
-  double left = low, right = high;
+  const double spacing = length() / double(dense_.rows() - 1);
+  double t = spacing * double(best);
+  double left = t - spacing, right = t + spacing;
+  // The straight ends go on for ever.
+  if (best == 0) left = -1e9;
+  if (best + 1 == dense_.rows()) right = 1e9;
   for (int i = 0; i < 40; ++i) {  // Newton on (c - q) . c' = 0, kept inside the bracket
     const Vec2 c = p * weights(t, 0), d = p * weights(t, 1), dd = p * weights(t, 2);
     const double g = (c - q).dot(d), h = d.squaredNorm() + (c - q).dot(dd);
@@ -87,10 +78,11 @@ TongueLine::Closest TongueLine::closest(const Positions& x, const Vec2& q) const
     t = next;
     if (done) break;
   }
-  const Vec2 tangent = (p * weights(t, 1)).normalized();
+  const Vec2 along = p * weights(t, 1), tangent = along.normalized();
   // From below the tip over the dorsum to the root the outside lies to the left (x back, z up).
   const Vec2 normal(-tangent[1], tangent[0]);
-  return {t, normal.dot(q - Vec2(p * weights(t, 0))), normal};
+  const double beyond = (t - std::clamp(t, 0.0, length())) * along.norm();
+  return {t, normal.dot(q - Vec2(p * weights(t, 0))), normal, beyond};
 }
 
 std::vector<Vec2> TongueLine::sample(const Positions& x, int count) const {

@@ -11,7 +11,7 @@
 #include "report/answers/answer_table.hpp"
 #include "report/pictures/svg.hpp"
 #include "runs/results/answer_record.hpp"
-#include "runs/results/csv_text.hpp"
+#include "runs/text/csv_text.hpp"
 #include "runs/results/laid.hpp"
 
 namespace genio {

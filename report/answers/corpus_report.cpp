@@ -8,7 +8,7 @@
 
 #include "forward/base/text_file.hpp"
 #include "report/answers/run_summary.hpp"
-#include "runs/results/csv_text.hpp"
+#include "runs/text/csv_text.hpp"
 
 namespace genio {
 namespace {

@@ -9,7 +9,7 @@
 #include "forward/base/text_file.hpp"
 #include "report/pictures/plot.hpp"
 #include "report/pictures/svg.hpp"
-#include "runs/results/csv_text.hpp"
+#include "runs/text/csv_text.hpp"
 
 namespace genio {
 namespace {

@@ -53,6 +53,9 @@ std::string effects_part(const Discovery& d) {
       for (const Experiment& e : r.apart)
         s += fmt::format(" {} ({:.1f});", escaped(e.label()), e.log_odds);
       s.back() = '.';
+      if (const auto& further = r.apart.front().further; !further.empty())
+        s += fmt::format(" Of the first posture, {} would bring {:.1f}.",
+                         escaped(further.front().first), further.front().second);
     }
     s += "</p>\n";
   }

@@ -19,11 +19,16 @@ Json effect_json(const NamedEffect& e) {
 
 Json experiments_json(const std::vector<Experiment>& all) {
   Json result = Json::array();
-  for (const Experiment& e : all)
+  for (const Experiment& e : all) {
+    Json further = Json::array();
+    for (const auto& [what, odds] : e.further)
+      further.push_back({{"measure", what}, {"expected_log_odds", odds}});
     result.push_back({{"posture", e.label()},
                       {"forces_N", e.forces},
                       {"pitch_deg", e.pitch},
-                      {"expected_log_odds", e.log_odds}});
+                      {"expected_log_odds", e.log_odds},
+                      {"further", std::move(further)}});
+  }
   return result;
 }
 

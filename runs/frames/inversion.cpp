@@ -122,7 +122,7 @@ FrameOptions frame_options(const Model& model, const InversionOptions& o,
         "only; give --palate, or --registered where it is known",
         1e3 * head_pose->shift_sd));
   if (!options.prior.head_pose && !o.dynamic) options.prior.head_pose = head_pose;
-  if (head_pose) options.infer.model_error.efficacy_sd = ModelError::another_speaker;
+  if (head_pose) options.infer.model_error = ModelError().of_another_speaker();
   options.infer.deadline_s = o.deadline_s;
   options.infer.full_space = o.full_space;
   if (o.bilateral) options.infer.bilateral = true;

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "runs/results/json_values.hpp"
-#include "runs/results/nesting.hpp"
+#include "runs/text/json_values.hpp"
+#include "runs/text/nesting.hpp"
 
 namespace genio {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "runs/results/csv_text.hpp"
-#include "runs/results/json_values.hpp"
+#include "runs/text/csv_text.hpp"
+#include "runs/text/json_values.hpp"
 
 namespace genio {
 namespace {

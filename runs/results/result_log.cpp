@@ -8,7 +8,7 @@
 #include "forward/base/input_file.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/base/types.hpp"
-#include "runs/results/nesting.hpp"
+#include "runs/text/nesting.hpp"
 
 namespace genio {
 

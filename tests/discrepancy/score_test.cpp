@@ -73,7 +73,7 @@ TEST_F(Scores, NothingHiddenScoresLowAndAHiddenEffectHighest) {
   const Projection projection(f, errors.covariance);
   const auto scores = score(all, *set, f, influences, projection);
   EXPECT_EQ(all[scores.front().candidate].effect, "airway_pressure");
-  EXPECT_NEAR(scores.front().estimate[0], 400, 130);  // a step that does not see the jaw
+  EXPECT_NEAR(scores.front().estimate[0], 400, 150);  // a step that does not see the jaw
   EXPECT_LT(scores.front().p, 1e-6);
 }
 
@@ -163,7 +163,7 @@ TEST_F(Scores, CommandsAnswerToWhatComesInAndGoesAwayAsAFitDoes) {
     return std::sqrt(sum);
   };
   const double between = apart(there.conditions, f.conditions);
-  EXPECT_LT(apart(without_candidate(*airway, there, errors), f.conditions), 0.4 * between);
+  EXPECT_LT(apart(without_candidate(*airway, there, errors), f.conditions), 0.5 * between);
   EXPECT_LT(
       apart(with_candidate(*airway, there.shared, *set, f, errors, influences), there.conditions),
       0.3 * between);

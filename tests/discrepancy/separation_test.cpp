@@ -30,6 +30,10 @@ TEST_F(Separation, LyingDownTellsWeightFromAWrongPose) {
   ASSERT_FALSE(best.empty());
   EXPECT_NE(best.front().pitch, 0) << best.front().label();
   for (size_t i = 1; i < best.size(); ++i) EXPECT_LE(best[i].log_odds, best[i - 1].log_odds);
+  for (const auto& [what, odds] : best.front().further)
+    EXPECT_GE(odds, best.front().log_odds - 1e-6) << what;
+  EXPECT_EQ(best.front().further.size(), 5u);
+  EXPECT_TRUE(best.back().further.empty());
 }
 
 TEST_F(Separation, WithoutGravityNobodyLiesDown) {

@@ -66,8 +66,20 @@ TEST_F(Infer, KeepsWhatEmgTellsOfAForce) {
   for (const auto& c : a.muscles)
     if (c.name == "GGP") {
       EXPECT_LT(c.sd / c.maximum, 0.0021);
-      EXPECT_TRUE(std::isnan(c.acts));
+      EXPECT_GT(c.acts, 0.99);
     }
+}
+
+TEST_F(Infer, ASilentElectrodeMakesRestLikelier) {
+  Prior prior;
+  prior.emg["STY"] = {0.0, 0.02};
+  const Target t = pulled({{"GGP", 2.6}}, 20, 1e-3);
+  const auto acts = [&](const Prior& p) {
+    for (const auto& c : infer(m, t, p, ws).muscles)
+      if (c.name == "STY") return c.acts;
+    return std::nan("");
+  };
+  EXPECT_LT(acts(prior), acts(Prior{}));
 }
 
 TEST_F(Infer, AnswersWhereEveryMuscleIsFixed) {

@@ -31,7 +31,7 @@ TEST_F(Routes, FullSpaceMeetsTheReducedOptimum) {
   for (size_t i = 0; i < a.muscles.size(); ++i) {
     EXPECT_NEAR(a.muscles[i].best, b.muscles[i].best, 0.02 * a.muscles[i].sd + 1e-4)
         << a.muscles[i].name;
-    EXPECT_NEAR(a.muscles[i].sd, b.muscles[i].sd, 0.02 * a.muscles[i].sd);
+    EXPECT_NEAR(a.muscles[i].sd, b.muscles[i].sd, 0.05 * a.muscles[i].sd);
   }
   EXPECT_NEAR(a.rms, b.rms, 1e-6);
   EXPECT_LT((a.shape - b.shape).cwiseAbs().maxCoeff(), 2e-5);

@@ -163,6 +163,27 @@ TEST_F(TargetTest, CurvatureIsWhatGaussNewtonLeavesOut) {
   }
 }
 
+TEST_F(TargetTest, ThePlaceThatMovedIsForgivenAndNotTheOneThatStayed) {
+  Positions x = m.rest;
+  const int tip = m.landmarks.tip;
+  for (const int node : m.midsagittal)
+    if ((m.mesh.nodes[size_t(node)] - m.mesh.nodes[size_t(tip)]).norm() < 0.02)
+      x.segment<3>(3 * node) += Vec3(0, 0, 8e-3);
+  Target t;
+  t.flesh.push_back({{{tip, 1.0}}, Vec3::Zero(), 5e-4, "tip"});
+  t.flesh.push_back({{{m.landmarks.root, 1.0}}, Vec3::Zero(), 5e-4, "root"});
+  const Residuals r = Comparison(m, t)(x);
+  const Vector ways = ways_from_rest(r, x, m.rest);
+  EXPECT_NEAR(ways[0], 8e-3, 1e-12);
+  EXPECT_NEAR(ways[3], 0, 1e-12);
+  const ModelError error;
+  const Matrix c = unabsorbed_error(r, error, 5e-3, ways);
+  EXPECT_NEAR(std::sqrt(c(0, 0)), error.left * 8e-3 / 5e-4, 1e-9);
+  EXPECT_NEAR(std::sqrt(c(3, 3)), error.least / 5e-4, 1e-9);
+  const Matrix other = unabsorbed_error(r, error.of_another_speaker(), 5e-3, ways);
+  EXPECT_GT(other(3, 3), c(3, 3));
+}
+
 TEST_F(TargetTest, AnOutlierCountsLittleUnderStudentsNoise) {
   const Target clean = pulled({{"GGP", 3}});
   Target dirty = clean;

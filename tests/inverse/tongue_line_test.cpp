@@ -8,13 +8,53 @@
 namespace genio {
 namespace {
 
-TEST(TongueLine, PassesThroughItsNodes) {
+TEST(TongueLine, RunsAlongTheEdgesOfTheSurface) {
   const Model m = read_model(test::generic_model());
   const TongueLine line(m);
-  for (int a : m.midsagittal) {
-    const Vec3 x = m.mesh.nodes[size_t(a)];
-    EXPECT_NEAR(line.closest(m.rest, Vec2(x[0], x[2])).distance, 0, 1e-12);
+  for (size_t k = 1; k < m.midsagittal.size(); ++k) {
+    const Vec3 a = m.mesh.nodes[size_t(m.midsagittal[k - 1])],
+               b = m.mesh.nodes[size_t(m.midsagittal[k])], middle = 0.5 * (a + b);
+    if ((b - a).norm() > 4e-3)
+      EXPECT_NEAR(line.closest(m.rest, {middle[0], middle[2]}).distance, 0, 1e-9) << k;
+    EXPECT_LT(std::abs(line.closest(m.rest, {b[0], b[2]}).distance), 4e-4) << k;
   }
+}
+
+TEST(TongueLine, IsOneSurfaceWithTheFacets) {
+  const Model m = read_model(test::generic_model());
+  Target on_line;
+  for (const Vec2& q : TongueLine(m).sample(m.rest, 100))
+    on_line.surface.push_back({Vec3(q[0], 0, q[1]), 5e-4});
+  EXPECT_LT(Comparison(m, on_line)(m.rest).rms, 1.2e-4);
+}
+
+TEST(TongueLine, HasContinuousSecondDerivatives) {
+  const Model m = read_model(test::generic_model());
+  const TongueLine line(m);
+  const double h = 1e-7;
+  for (int i = 0; i <= 400; ++i) {
+    const double t = line.length() * i / 400;
+    for (int d : {0, 1}) {
+      const Vector quotient = (line.weights(t + h, d) - line.weights(t - h, d)) / (2 * h);
+      EXPECT_LT((quotient - line.weights(t, d + 1)).norm(), d == 0 ? 1e-3 : 1) << t;
+    }
+  }
+}
+
+TEST(Comparison, PointsBeyondTheEndCostTheirDistance) {
+  const Model m = read_model(test::generic_model());
+  const TongueLine line(m);
+  const double last = line.length();
+  const Vec2 end = line.point(m.rest, last),
+             along = (end - line.point(m.rest, last - 1e-3)).normalized();
+  Target t;
+  for (const double beyond : {0.0, 0.02, 0.06}) t.curve.push_back({end + beyond * along, 5e-4});
+  const Residuals r = Comparison(m, t)(m.rest);
+  EXPECT_NEAR(r.distances[0], 0, 1e-6);
+  EXPECT_NEAR(r.distances[1], 0.02, 1e-6);
+  EXPECT_NEAR(r.distances[2], 0.06, 1e-6);
+  EXPECT_GT(std::abs(r.values[1]), 9);
+  EXPECT_GT(std::abs(r.values[2]), 28);
 }
 
 TEST(TongueLine, DistanceIsPositiveOutside) {

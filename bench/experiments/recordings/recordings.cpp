@@ -61,7 +61,7 @@ Outcome invert(const Model& model, WrittenSession w, const std::string& folder,
     prior.head_pose = m.head_pose;
     InferOptions options;
     if (m.head_pose) outcome.place_sd = m.head_pose->shift_sd;
-    if (m.head_pose) options.model_error.efficacy_sd = ModelError::another_speaker;
+    if (m.head_pose) options.model_error = ModelError().of_another_speaker();
     outcome.answer = infer_from_starts(model, target, prior, ws, options);
     outcome.explained = outcome.answer.status == InferStatus::converged &&
                         outcome.answer.verdict == Verdict::explained;

@@ -24,6 +24,7 @@ PriorRows::PriorRows(const std::vector<Unknown>& unknowns)
     : lower_(Eigen::Index(unknowns.size())),
       upper_(Eigen::Index(unknowns.size())),
       effort_(Vector::Zero(Eigen::Index(unknowns.size()))),
+      slab_(effort_),
       alone_(unknowns.size(), false) {
   for (size_t i = 0; i < unknowns.size(); ++i)
     lower_[Eigen::Index(i)] = unknowns[i].lower, upper_[Eigen::Index(i)] = unknowns[i].upper;
@@ -44,7 +45,7 @@ PriorTerms PriorRows::terms() const {
                    lower_,
                    upper_,
                    effort_,
-                   muscles_rest_};
+                   slab_};
   for (size_t k = 0; k < rows_.size(); ++k) terms.rows.row(Eigen::Index(k)) = rows_[k].transpose();
   return terms;
 }

@@ -19,11 +19,13 @@ class PriorRows {
   void add(const Vector& weights, double value, double sd);
   /// A row about unknown i alone.
   void add(Eigen::Index i, double value, double sd);
-  /// That z_i is small. `rests`: its muscle may also rest.
-  void add_effort(Eigen::Index i, double sd, bool rests) {
+  /// That z_i is small.
+  void add_effort(Eigen::Index i, double sd) {
     add(i, 0, sd);
-    effort_[i] = sd, muscles_rest_ = rests;
+    effort_[i] = sd;
   }
+  /// That z_i may rest, and has a slab of that scale where it acts.
+  void may_rest(Eigen::Index i, double scale) { slab_[i] = scale; }
   /// True where a row speaks of unknown i alone.
   bool has(Eigen::Index i) const { return alone_[size_t(i)]; }
   /// Holds z_i at a value.
@@ -32,8 +34,7 @@ class PriorRows {
   PriorTerms terms() const;
 
  private:
-  Vector lower_, upper_, effort_;
-  bool muscles_rest_ = false;
+  Vector lower_, upper_, effort_, slab_;
   std::vector<bool> alone_;
   std::vector<Vector> rows_;
   std::vector<double> values_;

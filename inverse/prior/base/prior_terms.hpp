@@ -12,7 +12,7 @@ struct PriorTerms {
   Vector lower, upper;
   /// Standard deviation of an unknown's row of effort; 0: it has none.
   Vector effort;
-  bool muscles_rest = false;  ///< those of effort may rest, see acting.hpp
+  Vector slab;    ///< scale of the slab of what may rest, see acting.hpp; 0: it never does
 
   double value(const Vector& z) const { return 0.5 * (rows * z - values).squaredNorm(); }
   Vector gradient(const Vector& z) const { return rows.transpose() * (rows * z - values); }

@@ -6,9 +6,11 @@ namespace genio {
 
 void EffortTerm::add_rows(const std::vector<Unknown>& unknowns, PriorRows& rows) const {
   need_positive(effort_sd, "effort");
-  for (size_t i = 0; i < unknowns.size(); ++i)
-    if (unknowns[i].kind == Unknown::Kind::muscle && !rows.has(Eigen::Index(i)))
-      rows.add_effort(Eigen::Index(i), effort_sd, muscles_rest);
+  for (Eigen::Index i = 0; i < Eigen::Index(unknowns.size()); ++i) {
+    if (unknowns[size_t(i)].kind != Unknown::Kind::muscle) continue;
+    if (!rows.has(i)) rows.add_effort(i, effort_sd);
+    if (muscles_rest) rows.may_rest(i, effort_sd);
+  }
 }
 
 EffortTerm EffortTerm::read(const TomlReader& file) {

@@ -24,6 +24,7 @@ std::string sensor_list(const SensorTable& table) {
                                     sum[0] / seen, sum[1] / seen, sum[2] / seen);
   }
   if (!list.empty()) list.pop_back();
+  for (const std::string& remark : table.remarks) list += "; " + remark;
   return list;
 }
 

@@ -1,4 +1,4 @@
-#include "cli/subcommands/serve.hpp"
+#include "cli/service/serve.hpp"
 
 #include <fmt/format.h>
 

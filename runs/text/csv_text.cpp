@@ -1,4 +1,4 @@
-#include "runs/results/csv_text.hpp"
+#include "runs/text/csv_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/subcommands/request.hpp"
+#include "cli/service/request.hpp"
 
 #include <fmt/format.h>
 

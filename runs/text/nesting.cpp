@@ -1,4 +1,4 @@
-#include "runs/results/nesting.hpp"
+#include "runs/text/nesting.hpp"
 
 namespace genio {
 
