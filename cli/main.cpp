@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "cli/command_line/command_line.hpp"
+#include "cli/service/request.hpp"
+#include "cli/service/serve.hpp"
 #include "cli/subcommands/bench.hpp"
 #include "cli/subcommands/corpus.hpp"
 #include "cli/subcommands/discover.hpp"
@@ -16,8 +18,6 @@
 #include "cli/subcommands/invert.hpp"
 #include "cli/subcommands/merge.hpp"
 #include "cli/subcommands/plan.hpp"
-#include "cli/service/request.hpp"
-#include "cli/service/serve.hpp"
 #include "forward/base/types.hpp"
 
 namespace {

@@ -20,8 +20,7 @@ RestBelief rest_belief(const std::vector<Unknown>& unknowns, const PriorTerms& p
                        const std::vector<Eigen::Index>& which) {
   RestBelief belief;
   belief.slab = Vector::Zero(Eigen::Index(which.size()));
-  for (size_t k = 0; k < which.size(); ++k)
-    belief.slab[Eigen::Index(k)] = prior.slab[which[k]];
+  for (size_t k = 0; k < which.size(); ++k) belief.slab[Eigen::Index(k)] = prior.slab[which[k]];
   belief.partner.assign(which.size(), -1);
   const auto other = other_sides(unknowns);
   for (size_t a = 0; a < which.size(); ++a)

@@ -11,8 +11,8 @@
 #include "report/answers/answer_table.hpp"
 #include "report/pictures/svg.hpp"
 #include "runs/results/answer_record.hpp"
-#include "runs/text/csv_text.hpp"
 #include "runs/results/laid.hpp"
+#include "runs/text/csv_text.hpp"
 
 namespace genio {
 namespace {

@@ -223,18 +223,15 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
   };
   target.file.frames = of_speaker(std::move(target.file.frames));
   chosen_frames(target.file.frames, o.choice, o.target, [](const std::string&) {});
-  if (!placed || target.file.model_frame) {  // else it is read once more
-    tell(o.target, target.file, remark);  // where the registration fails, it says why
-    target.file.remarks.clear();
-  }
   Measured m;
   if (placed) {
     ContourFile file = target.file.model_frame
                            ? std::move(target.file)
                            : with_one_curve_a_frame(read_contours(o.target, read), o.target);
     file.frames = of_speaker(std::move(file.frames));
-    tell(o.target, file, remark);
+    const std::vector<std::string> remarks = file.remarks;
     m = as_given(model(), std::move(file), o);
+    for (const std::string& line : remarks) remark(fmt::format("{}: {}", o.target, line));
   } else {
     m = format.content == Content::surface
             ? as_scan(model(), std::move(target), o, read, remark)

@@ -12,7 +12,7 @@ struct PriorTerms {
   Vector lower, upper;
   /// Standard deviation of an unknown's row of effort; 0: it has none.
   Vector effort;
-  Vector slab;    ///< scale of the slab of what may rest, see acting.hpp; 0: it never does
+  Vector slab;  ///< scale of the slab of what may rest, see acting.hpp; 0: it never does
 
   double value(const Vector& z) const { return 0.5 * (rows * z - values).squaredNorm(); }
   Vector gradient(const Vector& z) const { return rows.transpose() * (rows * z - values); }
