@@ -14,8 +14,9 @@ TEST(TongueLine, RunsAlongTheEdgesOfTheSurface) {
   for (size_t k = 1; k < m.midsagittal.size(); ++k) {
     const Vec3 a = m.mesh.nodes[size_t(m.midsagittal[k - 1])],
                b = m.mesh.nodes[size_t(m.midsagittal[k])], middle = 0.5 * (a + b);
-    if ((b - a).norm() > 4e-3)
+    if ((b - a).norm() > 4e-3) {
       EXPECT_NEAR(line.closest(m.rest, {middle[0], middle[2]}).distance, 0, 1e-9) << k;
+    }
     EXPECT_LT(std::abs(line.closest(m.rest, {b[0], b[2]}).distance), 4e-4) << k;
   }
 }
