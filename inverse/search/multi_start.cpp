@@ -14,8 +14,8 @@ namespace {
 
 constexpr double least_weight = 0.01;  // of an alternative worth telling
 constexpr double apart = 3;            // posterior standard deviations between distinct optima
-constexpr int patience = 4;            // descents for a target that no answer explains
-constexpr int warm_patience = 2;       // the same with a start of the caller's
+constexpr int patience = 5;            // descents for a target that no answer explains
+constexpr int warm_patience = 4;       // the same with a start of the caller's
 
 /// Draws of the prior within its bounds, a column each.
 Matrix prior_draws(const PriorTerms& prior, int count) {
