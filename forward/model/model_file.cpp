@@ -17,6 +17,19 @@
 namespace genio {
 namespace {
 
+constexpr double farthest = 10;  // from the origin [m]; distances to what is farther overflow
+
+/// A surface of the model. Throws InputError where no bone beside a tongue has it.
+TriangleSurface bone_surface(const std::string& path) {
+  TriangleSurface surface = read_surface(path);
+  for (const Vec3& x : surface.vertices)
+    if (!(x.cwiseAbs().maxCoeff() < farthest))
+      throw InputError(fmt::format(
+          "{}: has a vertex at ({:g}, {:g}, {:g}); expected metres, within {:g} of the origin",
+          path, x[0], x[1], x[2], farthest));
+  return surface;
+}
+
 namespace fs = std::filesystem;
 using Reader = TomlReader;
 
@@ -166,7 +179,7 @@ ModelDescription read_description(const std::string& given) {
     r.only(s, {"palate", "jaw", "hyoid"});
     for (auto [key, target] :
          {std::pair{"palate", &d.palate}, {"jaw", &d.jaw}, {"hyoid", &d.hyoid}})
-      if (s.contains(key)) *target = read_surface((folder / r.text(s, key)).string());
+      if (s.contains(key)) *target = bone_surface((folder / r.text(s, key)).string());
   }
   read_effects(r, d);
   return d;
