@@ -8,8 +8,8 @@ namespace genio::cli {
 /// sought. The model is the generic one unless the command line says another.
 void add_shape_options(Options& options, InversionOptions& o);
 
-/// Declares all options that an answer depends on: those of
-/// add_shape_options(), and of the frames together.
+/// Declares all options that an answer depends on: those of add_shape_options(),
+/// and of the frames together.
 void add_inversion_options(Options& options, InversionOptions& o);
 
 }  // namespace genio::cli

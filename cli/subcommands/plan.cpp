@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
 
 #include "cli/option_sets/inversion_options.hpp"
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "inverse/planning/further_measurements.hpp"
-#include "report/answers/answer_table.hpp"
 #include "report/answers/plan_report.hpp"
 #include "runs/frames/frame.hpp"
 #include "runs/process/progress_line.hpp"

@@ -25,7 +25,7 @@ struct Region {
   const char* name;
   double from, to;  ///< parts of the way from tip to root, as tongue_region() has them
 };
-constexpr std::array regions = {Region{"underside", -1, 0}, Region{"tip", 0, 0.1},
+constexpr std::array regions = {Region{"underside", -1e9, 0}, Region{"tip", 0, 0.1},
                                 Region{"blade", 0.1, 0.3}, Region{"dorsum", 0.3, 0.65},
                                 Region{"root", 0.65, 1}};
 
@@ -152,9 +152,7 @@ Target points_of(const Model& model, const Target& measured, const Positions& x,
                                         [&](const Region& r) { return place == r.name; });
       if (region == regions.end())
         fail(wish.text, "expected underside, tip, blade, dorsum or root");
-      Region whole = *region;
-      if (region == regions.begin()) whole.from = -1e9;
-      add_contour(line, x, whole, sigma, measured, target);
+      add_contour(line, x, *region, sigma, measured, target);
     } else if (wish.kind == "sensors") {
       target.flesh.push_back(sensor(model, x, place, sigma));
     } else {

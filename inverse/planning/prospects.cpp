@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "forward/base/nearest_name.hpp"
 #include "inverse/posterior/posterior.hpp"
+#include "inverse/prior/base/prior_rows.hpp"
 #include "inverse/shape/settled_posterior.hpp"
 
 namespace genio {
@@ -51,14 +51,18 @@ Residuals joined(Residuals a, const Residuals& b) {
   return a;
 }
 
-/// A vector of that covariance, by numbers of its own.
-Vector normal_vector(const Matrix& covariance, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  Vector v(covariance.rows());
-  for (double& x : v) x = normal(random);
+/// A such that A A^T is the covariance.
+Matrix root_of(const Matrix& covariance) {
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(covariance);
   const Vector sd = eigen.eigenvalues().cwiseMax(least_sd * least_sd).cwiseSqrt();
-  return eigen.eigenvectors() * sd.cwiseProduct(v);
+  return eigen.eigenvectors() * sd.asDiagonal();
+}
+
+Vector white_noise(Eigen::Index count, std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  Vector v(count);
+  for (double& x : v) x = normal(random);
+  return v;
 }
 
 /// What a candidate's points would read, as residuals at the scene's point.
@@ -79,8 +83,8 @@ class Readings {
     const Matrix scatter = residual_covariance(measured_.residuals, scene.error, scene.way);
     const Matrix old = scatter.topLeftCorner(old_, old_);
     told_ = old.llt().solve(scatter.topRightCorner(old_, by.rows())).transpose();
-    left_ = scatter.bottomRightCorner(by.rows(), by.rows()) -
-            told_ * scatter.topRightCorner(old_, by.rows());
+    left_ = root_of(scatter.bottomRightCorner(by.rows(), by.rows()) -
+                    told_ * scatter.topRightCorner(old_, by.rows()));
   }
 
   Eigen::Index count() const { return measured_.residuals.values.size() - old_; }
@@ -91,7 +95,7 @@ class Readings {
     const Vector off = measured_.jacobian * (draw.unknowns - scene_.point.activations);
     const Vector erred = scene_.point.residuals.values + off.head(old_);
     measured_.residuals.values.tail(count()) =
-        told_ * erred + normal_vector(left_, random) - off.tail(count());
+        told_ * erred + left_ * white_noise(count(), random) - off.tail(count());
     return measured_;
   }
 
@@ -99,30 +103,17 @@ class Readings {
   const Scene& scene_;
   ObjectivePoint measured_;
   Eigen::Index old_ = 0;
-  Matrix told_, left_;  ///< mean and covariance of new residuals, given the old ones
+  Matrix told_, left_;  ///< of new residuals given the old ones: mean, root of covariance
 };
 
-/// Rows of the unknowns that a name speaks of. Throws InputError where there are none.
-std::vector<size_t> estimated(const std::vector<Unknown>& unknowns, const std::string& name,
-                              Unknown::Kind kind) {
-  std::vector<size_t> rows;
-  std::vector<std::string> names;
-  for (size_t i = 0; i < unknowns.size(); ++i) {
-    if (unknowns[i].kind != kind) continue;
-    names.push_back(unknowns[i].name);
-    if (unknowns[i].name == name ||
-        (kind == Unknown::Kind::muscle && bilateral_name(unknowns[i].name) == name))
-      rows.push_back(i);
-  }
-  if (rows.empty() && kind == Unknown::Kind::parameter)
-    throw InputError(
-        fmt::format("{}: is taken as known; name it under [parameter] in the prior file, with the "
-                    "standard deviation that is believed of it",
-                    name));
-  if (rows.empty())
-    throw InputError(
-        fmt::format("{}: no such muscle; did you mean {}?", name, nearest_name(name, names)));
-  return rows;
+/// The unknown that is that parameter. Throws InputError where it is not estimated along.
+size_t parameter_row(const std::vector<Unknown>& unknowns, const std::string& name) {
+  for (size_t i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i].kind == Unknown::Kind::parameter && unknowns[i].name == name) return i;
+  throw InputError(
+      fmt::format("{}: is taken as known; name it under [parameter] in the prior file, with the "
+                  "standard deviation that is believed of it",
+                  name));
 }
 
 /// The prior with what the candidate would tell of single unknowns.
@@ -132,22 +123,22 @@ PriorTerms told_terms(const Scene& scene, const FurtherMeasurement& candidate, c
   std::normal_distribution<double> normal;
   Prior prior = scene.prior;
   for (const auto& [name, sd] : candidate.emg_sd)
-    for (const size_t i : estimated(scene.unknowns, name, Unknown::Kind::muscle)) {
-      const double read = draw.forces[Eigen::Index(i)] + sd * normal(random);
-      prior.emg[scene.unknowns[i].name] = {std::clamp(read, 0.0, 1.0), sd};
+    for (const Eigen::Index i : muscles_named(scene.unknowns, name, "EMG of")) {
+      const double read = draw.forces[i] + sd * normal(random);
+      prior.emg[scene.unknowns[size_t(i)].name] = {std::clamp(read, 0.0, 1.0), sd};
     }
   PriorTerms terms = prior_terms(prior, scene.unknowns);
-  for (const auto& [name, sd] : candidate.parameter_sd)
-    for (const size_t i : estimated(scene.unknowns, name, Unknown::Kind::parameter)) {
-      const Unknown& u = scene.unknowns[i];
-      const double z = draw.unknowns[Eigen::Index(i)];
-      const double width = sd / std::abs(u.slope(u.value(z)));  // in z
-      terms.rows.conservativeResize(terms.rows.rows() + 1, Eigen::NoChange);
-      terms.rows.bottomRows(1).setZero();
-      terms.rows(terms.rows.rows() - 1, Eigen::Index(i)) = 1 / width;
-      terms.values.conservativeResize(terms.values.size() + 1);
-      terms.values[terms.values.size() - 1] = z / width + normal(random);
-    }
+  for (const auto& [name, sd] : candidate.parameter_sd) {
+    const size_t i = parameter_row(scene.unknowns, name);
+    const Unknown& u = scene.unknowns[i];
+    const double z = draw.unknowns[Eigen::Index(i)];
+    const double width = sd / std::abs(u.slope(u.value(z)));  // in z
+    terms.rows.conservativeResize(terms.rows.rows() + 1, Eigen::NoChange);
+    terms.rows.bottomRows(1).setZero();
+    terms.rows(terms.rows.rows() - 1, Eigen::Index(i)) = 1 / width;
+    terms.values.conservativeResize(terms.values.size() + 1);
+    terms.values[terms.values.size() - 1] = z / width + normal(random);
+  }
   return terms;
 }
 
