@@ -37,6 +37,7 @@ void CalibrationCount::add(const std::vector<Estimate>& muscles,
     const std::string group = muscle_group(both);
     (force > 0 ? active_ : resting_).add(holds);
     (force > 0 ? active_by_group_ : resting_by_group_)[group].add(holds);
+    if (force > 0) active_by_muscle_[both].add(holds);
     (force > 0 ? acts_of_active_ : acts_of_resting_) += e.acts;
     if (force > 0) width_ += (e.high - e.low) / e.maximum;
     if (!std::isfinite(e.acts)) continue;
@@ -52,9 +53,11 @@ double CalibrationCount::calibration_error() const {
 }
 
 nlohmann::json CalibrationCount::json() const {
-  nlohmann::json active, resting;
-  for (const auto& [group, share] : active_by_group_) active[group] = share.json();
-  for (const auto& [group, share] : resting_by_group_) resting[group] = share.json();
+  const auto by = [](const std::map<std::string, Share>& shares) {
+    nlohmann::json json = nlohmann::json::object();
+    for (const auto& [name, share] : shares) json[name] = share.json();
+    return json;
+  };
   const auto part = [&](int count) {
     return answered_ == 0 ? nlohmann::json() : nlohmann::json(double(count) / answered_);
   };
@@ -71,8 +74,9 @@ nlohmann::json CalibrationCount::json() const {
           {"acts_of_active", mean(acts_of_active_, active_)},
           {"acts_of_resting", mean(acts_of_resting_, resting_)},
           {"calibration_error", calibration_error()},
-          {"active_by_group", active},
-          {"resting_by_group", resting}};
+          {"active_by_group", by(active_by_group_)},
+          {"resting_by_group", by(resting_by_group_)},
+          {"active_by_muscle", by(active_by_muscle_)}};
 }
 
 }  // namespace genio::bench

@@ -25,7 +25,8 @@ class CalibrationCount {
   void add_failure() { ++targets_; }
 
   /// `targets, failed, explained, rms_mm_median, active, resting, width_of_active,
-  /// acts_of_active, acts_of_resting, calibration_error, active_by_group, resting_by_group`: shares
+  /// acts_of_active, acts_of_resting, calibration_error, active_by_group, resting_by_group,
+  /// active_by_muscle`: shares
   /// of 90 % intervals that hold the truth, null where there is none; the mean width of those of
   /// muscles that act, over the maximum; the mean probability to act that muscles were told; and
   /// the expected calibration error of it over ten bins (Naeini et al. 2015).
@@ -48,7 +49,7 @@ class CalibrationCount {
   Share active_, resting_;
   double width_ = 0, acts_of_active_ = 0, acts_of_resting_ = 0;
   std::array<Bin, 10> bins_ = {};
-  std::map<std::string, Share> active_by_group_, resting_by_group_;
+  std::map<std::string, Share> active_by_group_, resting_by_group_, active_by_muscle_;
   std::vector<double> rms_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "cli/support.hpp"
 #include "forward/base/nearest_name.hpp"
 #include "forward/model/build_model.hpp"
@@ -49,8 +51,11 @@ Model changed_model(const std::string& model, const ModelChanges& changes) {
 
 Parameters commanded(const Model& model, const std::vector<std::string>& forces) {
   Parameters p = default_parameters(model);
+  std::set<std::string> given;
   for (const auto& text : forces) {
     const auto [name, value] = parse_assignment("--force", text);
+    if (!given.insert(name).second)
+      throw InputError(fmt::format("--force {}: {} was given already", text, name));
     set_command(model, name, value, p);
   }
   return p;

@@ -32,6 +32,7 @@ std::vector<std::pair<int, double>> flesh(const Model& model, const ContourPoint
 ContourFrame registered(const Model& model, const ContourFrame& frame,
                         const Similarity& transform) {
   ContourFrame result = frame;
+  result.registered = true;
   auto& points = result.points;
   for (ContourPoint& p : points) {
     const Vec2 moved = transform(Vec2(p.position[0], p.position[2]));
@@ -57,6 +58,7 @@ ContourFrame registered(const Model& model, const ContourFrame& frame,
 Target make_target(const Model& model, const ContourFrame& frame, double noise) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& x : model.mesh.nodes) middle += x / double(model.mesh.nodes.size());
+  const double longer = frame.registered ? longer_line : 0;
   Target target;
   for (size_t i = 0; i < frame.points.size(); ++i) {
     const ContourPoint& p = frame.points[i];
@@ -68,7 +70,7 @@ Target make_target(const Model& model, const ContourFrame& frame, double noise) 
           "frame {}, point {}: ({:.4g}, {:.4g}) mm lies {:.4g} mm from the middle of the tongue; "
           "expected millimetres in the model's frame. Wrong units, or not registered?",
           frame.number, i + 1, 1e3 * q[0], 1e3 * q[2], 1e3 * (flat - middle).norm()));
-    if (p.kind == "curve") target.curve.push_back({Vec2(q[0], q[2]), sigma});
+    if (p.kind == "curve") target.curve.push_back({Vec2(q[0], q[2]), sigma, longer});
     else if (p.kind == "surface") target.surface.push_back({q, sigma, p.slice});
     else target.flesh.push_back({flesh(model, p), q, sigma, p.kind});
   }

@@ -15,7 +15,6 @@ namespace {
 constexpr double shortest_line = 0.12, longest_line = 0.16;  // of 41 speakers' tongues [m]
 constexpr double slack = 1.15;
 constexpr double telling = 8;           // fall of the cost, in squares of standard deviations
-constexpr double most_tilt = 45;        // [deg]
 constexpr double poor_palate = 3e-3;    // [m]
 constexpr double out_of_reach = 15e-3;  // root mean square from the line at rest [m]
 constexpr double into_bone = 3e-3;      // what noise and another anatomy explain [m]
@@ -72,7 +71,7 @@ std::pair<double, double> plausible_scales(const Model& model) {
 Judgement judge(const Model& model, const Registration& r,
                 const std::vector<std::vector<Vec2>>& contours, bool has_palate) {
   Judgement j{.scale = r.transform.scale,
-              .tilt = r.transform.angle,
+              .tilt = std::remainder(r.transform.angle, 2 * std::numbers::pi),
               .shift = r.transform.shift,
               .palate_rms = r.palate_rms,
               .off_reach = r.off_reach};
@@ -89,11 +88,11 @@ Judgement judge(const Model& model, const Registration& r,
     }
   j.behind_palate = behind(model, moved, into_bone + (has_palate ? 0 : r.shift_sd.maxCoeff()));
 
-  if (const double tilt = std::abs(j.tilt) * 180 / std::numbers::pi; tilt > most_tilt)
+  if (std::abs(j.tilt) > most_tilt)
     j.faults.push_back(fmt::format(
         "it is tilted by {:.0f} degrees, and no head is by more than {:.0f}: is up where it was "
         "said to be (--y-grows, --facing, --axes)?",
-        tilt, most_tilt));
+        std::abs(j.tilt) * 180 / std::numbers::pi, most_tilt * 180 / std::numbers::pi));
   add_common_faults(model, j, r.free_scale, r.free_gain, has_palate, "contours");
   return j;
 }

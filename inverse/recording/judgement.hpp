@@ -1,6 +1,8 @@
 #pragma once
 // The one test that a registration has to pass before forces are answered.
 
+#include <numbers>
+
 #include "inverse/recording/registration/registration.hpp"
 #include "inverse/recording/scan_pose/scan_registration.hpp"
 
@@ -28,6 +30,9 @@ std::pair<double, double> plausible_scales(const Model& model);
 /// than 3 mm from the model's palate, or the contours lie beyond bone or out of a tongue's reach.
 Judgement judge(const Model& model, const Registration& registration,
                 const std::vector<std::vector<Vec2>>& contours, bool has_palate);
+
+/// What no head is tilted by [rad].
+inline constexpr double most_tilt = 45 * std::numbers::pi / 180;
 
 /// Judges the points of a scan that lie in the model's frame, and how they came there, which is
 /// left out where the caller says so. A scanner may stand as it likes: its tilt is no fault.

@@ -63,7 +63,7 @@ int landmark(const Model& model, const std::string& name) {
     throw InputError(
         fmt::format("kind '{}': expected node:0 to node:{}", name, model.mesh.nodes.size() - 1));
   }
-  throw InputError(fmt::format("kind '{}': unknown; did you mean {}?", name,
+  throw InputError(fmt::format("kind or place '{}': unknown; did you mean {}?", name,
                                nearest_name(name, {"curve", "surface", "volume", "tip", "blade",
                                                    "dorsum", "root", "node:0", "tip+10mm"})));
 }
@@ -166,6 +166,14 @@ std::string other_order(const Model& model, const ContourFile& file) {
   return {};
 }
 
+/// " (are the units cm?)" where other units would explain a distance; else empty.
+std::string other_units(double seen, double modelled) {
+  for (const auto& [unit, factor] : {std::pair{"cm", 10.0}, {"m", 1000.0}, {"um", 1e-3}})
+    if (const double ratio = factor * seen / modelled; ratio > 0.5 && ratio < 2)
+      return fmt::format(" (are its units {}? --units says so)", unit);
+  return {};
+}
+
 /// Two sensors whose distance is not that of their places.
 std::string other_distance(const Model& model, const ContourFile& file,
                            const std::pair<double, double>& scales, double stretch) {
@@ -184,8 +192,8 @@ std::string other_distance(const Model& model, const ContourFile& file,
       if (ratio <= worst_ratio) continue;
       worst_ratio = ratio;
       worst = fmt::format(
-          "the sensors at {} and {} are {:.1f} mm apart, these places {:.1f} mm in the model",
-          kinds[i], kinds[j], 1e3 * seen, 1e3 * modelled);
+          "the sensors at {} and {} are {:.2g} mm apart, these places {:.1f} mm in the model{}",
+          kinds[i], kinds[j], 1e3 * seen, 1e3 * modelled, other_units(seen, modelled));
     }
   return worst;
 }
@@ -234,6 +242,8 @@ std::string place_contradiction(const Model& model, const ContourFile& file,
   if (worst.empty()) worst = other_order(model, file);
   if (worst.empty()) worst = other_distance(model, file, scales, stretch);
   if (worst.empty()) return {};
+  if (worst.ends_with("says so)"))
+    return worst;  // places by distances in wrong units would mislead
   std::string proposal;
   for (const auto& [kind, arc] : places_by_distance(model, file))
     proposal += fmt::format("{}{} at tip+{:.0f}mm", proposal.empty() ? " " : ", ", kind, 1e3 * arc);

@@ -125,10 +125,30 @@ double contradiction(const Model& model, const TongueReach& reach, Traces sessio
 }
 
 std::string described(const Candidate& c, Content content) {
-  return fmt::format("'{}' (scale {:.2f}, tilt {:.0f} degrees, cost {:.0f}; {})",
-                     c.reading.text(content), c.registration.transform.scale,
-                     c.registration.transform.angle * 180 / std::numbers::pi, c.cost,
-                     c.reading.options(content));
+  return fmt::format(
+      "'{}' (scale {:.2f}, tilt {:.0f} degrees, cost {:.0f}; {})", c.reading.text(content),
+      c.registration.transform.scale,
+      std::remainder(c.registration.transform.angle, 2 * std::numbers::pi) * 180 / std::numbers::pi,
+      c.cost, c.reading.options(content));
+}
+
+/// The cheapest reading where the sensors are named in the other order along the tongue; empty
+/// where their distances tell that they are not.
+std::optional<Candidate> reversed_order(const Model& model, const TongueReach& reach,
+                                        Traces session, const Vec3& extent) {
+  const ContourFile other = in_other_order(model, *session.target);
+  session.target = &other;
+  std::optional<Candidate> best;
+  if (other.frames.empty()) return best;
+  for (const AxesReading& reading : all_readings(other))
+    if (in_plane(reading, extent))
+      if (Candidate c = candidate(model, reach, session, reading); !best || c.cost < best->cost)
+        best = std::move(c);
+  if (best && !doubtful_places(model, turned(other, best->reading), best->registration,
+                               session.palate != nullptr)
+                   .empty())
+    best.reset();
+  return best;
 }
 
 /// align() that takes all marks for true.
@@ -203,6 +223,9 @@ AlignedRecording align_by_all(const Model& model, const TongueReach& reach, Sess
     target.file.remarks.push_back(
         fmt::format("{} would fit as well, and its format has {}; say which by those options",
                     described(others.front(), content), described(best, content)));
+  std::optional<Candidate> reversed;  // where the sensors may be named from the root
+  if (content == Content::sensors && options.axes.empty())
+    reversed = reversed_order(model, reach, session, extent);
   const bool on_palate = palate && is_the_palate(target.file, palate->file);
   const double bite_plane_off = contradiction(model, reach, session, best);
   AlignedRecording result{turned(std::move(target.file), best.reading),
@@ -221,6 +244,16 @@ AlignedRecording align_by_all(const Model& model, const TongueReach& reach, Sess
     result.judgement.faults.push_back(
         fmt::format("its axes were read as {}, and {} fits better: is it a mirror image?",
                     described(best, content), described(others.front(), content)));
+  if (reversed && reversed->cost + far_better < best.cost)
+    result.judgement.faults.push_back(fmt::format(
+        "its axes were read as {}, and with its sensors in the other order {} fits better: are "
+        "they named from tip to root?",
+        described(best, content), described(*reversed, content)));
+  else if (reversed && reversed->cost < best.cost + near)
+    result.file.remarks.push_back(fmt::format(
+        "only the order of the sensors tells which way the face looks: in the other order {} would "
+        "fit as well; are they named from tip to root?",
+        described(*reversed, content)));
   if (content == Content::sensors) {
     const auto& r = result.registration;
     if (std::string places = doubtful_places(model, result.file, r, palate.has_value());

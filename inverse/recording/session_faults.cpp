@@ -76,6 +76,20 @@ std::vector<Vec2> place_offsets(const Model& model, const ContourFile& file, con
   return offsets;
 }
 
+ContourFile in_other_order(const Model& model, ContourFile file) {
+  std::map<double, std::string> by_arc;
+  for (const auto& [kind, arc] : places_by_distance(model, file))
+    by_arc[behind_tip(model, kind)] = kind;
+  std::map<std::string, std::string> other;
+  auto last = by_arc.rbegin();
+  for (const auto& [arc, kind] : by_arc) other[kind] = (last++)->second;
+  if (other.size() < 2) file.frames.clear();
+  for (ContourFrame& frame : file.frames)
+    for (ContourPoint& p : frame.points)
+      if (const auto it = other.find(p.kind); it != other.end()) p.kind = it->second;
+  return file;
+}
+
 bool is_the_palate(const ContourFile& target, const ContourFile& palate) {
   const std::vector<Vec2> trace = trace_of(palate);
   if (trace.size() < 2 || target.format.content != Content::curves) return false;

@@ -17,6 +17,10 @@ void check_same_speaker(const SessionFile& target, const SessionFile& palate);
 /// the middle of its places [m].
 std::vector<Vec2> place_offsets(const Model& model, const ContourFile& file, const Similarity& s);
 
+/// The same file with its sensors named in the other order along the tongue: who names them from
+/// the root turns the head. Empty of frames where it has fewer than two.
+ContourFile in_other_order(const Model& model, ContourFile file);
+
 /// What contradicts the places of sensors: that of place_contradiction(), with the scale that the
 /// palate tells where there is one, or places far from where the sensors lie once they are
 /// registered. Empty where nothing does.

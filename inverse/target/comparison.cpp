@@ -65,23 +65,25 @@ void compare_curve(const CurvePoint& point, const TongueLine& line, const Positi
   const auto c = line.closest(x, q);
   const Vector w = line.weights(c.t);
   const auto& nodes = line.nodes();
-  // r^2 = (across / sigma)^2 + (beyond the end / end_sigma)^2, with the sign of across.
-  const double across = c.distance / point.sigma;
+  // r^2 = (across / sigma)^2 + (past the end / end_sigma)^2, with the sign of across.
+  const double across = c.distance / point.sigma, past = point.past_end(c.beyond);
   Vec2 slope = c.normal / point.sigma;  // dr / dq
   double r = across;
   std::vector<Vec2> of_end(nodes.size(), Vec2::Zero());  // - d beyond / d node
   Vec2 end = q - c.distance * c.normal;
   if (c.beyond != 0) {
-    const double t = std::clamp(c.t, 0.0, line.length()), end_sigma = past_end_sigma(point.sigma);
-    const Vec2 along = line.control(x) * line.weights(t, 1), tangent = along.normalized();
+    const double t = std::clamp(c.t, 0.0, line.length()), end_sigma = point.past_end_sigma();
     const Vector at = line.weights(t), turns = line.weights(t, 1);
-    r = std::copysign(std::hypot(across, c.beyond / end_sigma), across);
-    const double part = c.beyond / (end_sigma * end_sigma * r);
-    slope = across / r * slope + part * tangent;
-    for (size_t k = 0; k < nodes.size(); ++k)
-      of_end[k] = part * (at[Eigen::Index(k)] * tangent -
-                          c.distance / along.norm() * turns[Eigen::Index(k)] * c.normal);
+    const Vec2 along = line.control(x) * turns, tangent = along.normalized();
     end -= c.beyond * tangent;
+    if (past != 0) {
+      r = std::copysign(std::hypot(across, past / end_sigma), across);
+      const double part = past / (end_sigma * end_sigma * r);
+      slope = across / r * slope + part * tangent;
+      for (size_t k = 0; k < nodes.size(); ++k)
+        of_end[k] = part * (at[Eigen::Index(k)] * tangent -
+                            c.distance / along.norm() * turns[Eigen::Index(k)] * c.normal);
+    }
   }
   std::vector<std::pair<int, Vec3>> gradient;
   for (size_t k = 0; k < nodes.size(); ++k) {
@@ -90,7 +92,7 @@ void compare_curve(const CurvePoint& point, const TongueLine& line, const Positi
     gradient.emplace_back(nodes[k], Vec3(g[0], 0, g[1]));
   }
   rows.row(r, std::move(gradient), q, slope, point.sigma);
-  rows.point(std::hypot(c.distance, c.beyond), Vec3(end[0], 0, end[1]));
+  rows.point(std::hypot(c.distance, past), Vec3(end[0], 0, end[1]));
 }
 
 void compare_flesh(const FleshPoint& point, const Positions& x, const MovedTarget& moved,
@@ -201,8 +203,6 @@ Residuals Comparison::operator()(const Positions& x, const HeadPose& pose) const
   for (const auto& point : target_.surface) compare_surface(point, surface, about_, moved, rows);
   return std::move(rows).result();
 }
-
-double past_end_sigma(double sigma) { return std::hypot(sigma, 2e-3); }
 
 Matrix model_error_covariance(const Residuals& residuals, double sd, double length) {
   return model_error_covariance(residuals,

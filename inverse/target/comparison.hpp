@@ -36,16 +36,12 @@ struct ModelError {
   double part = 0.33;  ///< with `length`
 };
 
-/// Standard deviation of how far past the end of the line a contour's point is: where a contour
-/// ends is a matter of who traced it, to some 2 mm [m].
-double past_end_sigma(double sigma);
-
 /// Noise-weighted residuals and their derivatives.
 struct Residuals {
-  /// Distance over sigma r, of a curve's point past the end of the line with how far past over 2
-  /// mm; with Student's t noise sign(r) sqrt(nu log(1 + r^2 / nu)), whose half square is the
-  /// log-likelihood's loss (Lange, Little & Taylor 1989, for fixed nu, scaled to unit curvature at
-  /// 0).
+  /// Distance over sigma r, of a curve's point past the end of the line with how far past over
+  /// its own sigma; with Student's t noise sign(r) sqrt(nu log(1 + r^2 / nu)), whose half square is
+  /// the log-likelihood's loss (Lange, Little & Taylor 1989, for fixed nu, scaled to unit curvature
+  /// at 0).
   Vector values;
   std::vector<std::vector<std::pair<int, Vec3>>>
       gradient;  ///< d value / d x_node [1/m], a row each

@@ -81,7 +81,8 @@ Distance line_distance(const CurvePoint& point, const TongueLine& line, const Po
                           c.distance * b * b.transpose() - k * big * t * t.transpose());
   second(2 * nodes + 2, 2 * nodes + 2) += c.normal.dot(moved.by_turn_twice(q));
   Distance across{c.distance, std::move(first), std::move(second), std::move(at)};
-  if (c.beyond == 0) return across;
+  const double past = point.past_end(c.beyond);
+  if (past == 0) return across;
   // Past the end e tau, e from the end's node: the straight end turns by f = n . dc' / s, so that
   //   d_i = e_i . tau + (e . n) f_i,
   //   d_ij = (e_i . n) f_j + f_i (e_j . n) - (e . n) (f_i g_j + g_i f_j) - d f_i f_j + tau . q_ij,
@@ -95,13 +96,13 @@ Distance line_distance(const CurvePoint& point, const TongueLine& line, const Po
   }
   to_normal.tail<3>() = by_pose.transpose() * c.normal;
   to_tangent.tail<3>() = by_pose.transpose() * tangent;
-  Distance beyond{c.beyond, to_tangent + c.distance * f,
+  Distance beyond{past, to_tangent + c.distance * f,
                   to_normal * f.transpose() + f * to_normal.transpose() -
                       c.distance * (f * g.transpose() + g * f.transpose()) -
                       c.beyond * f * f.transpose(),
                   across.at};
   beyond.second(2 * nodes + 2, 2 * nodes + 2) += tangent.dot(moved.by_turn_twice(q));
-  return past_end(across, beyond, point.sigma / past_end_sigma(point.sigma));
+  return past_end(across, beyond, point.sigma / point.past_end_sigma());
 }
 
 /// From a distance over the corners of a facet to one over its nodes: its middle is their mean.

@@ -2,6 +2,8 @@
 // What was measured of one tongue shape.
 
 #include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,10 +12,23 @@
 
 namespace genio {
 
+/// How much longer than the model's another speaker's line may be at either end: of lines of one
+/// length, what lies behind the highest point differs by 4.1 mm between 41 speakers (standard
+/// deviation; Serrurier & Neuschaefer-Rube 2023) [m].
+inline constexpr double longer_line = 4.1e-3;
+
 /// A point of the midsagittal contour; its place along the tongue is not known.
 struct CurvePoint {
-  Vec2 position;  ///< (x, z) [m]
-  double sigma;   ///< noise across the contour [m]
+  Vec2 position;      ///< (x, z) [m]
+  double sigma;       ///< noise across the contour [m]
+  double longer = 0;  ///< how far past the end of the model's line it costs nothing [m]
+
+  /// What counts of lying `beyond` the end [m].
+  double past_end(double beyond) const {
+    return std::copysign(std::max(0.0, std::abs(beyond) - longer), beyond);
+  }
+  /// Its standard deviation: where a contour ends is a matter of who traced it, to some 2 mm [m].
+  double past_end_sigma() const { return std::hypot(sigma, 2e-3); }
 };
 
 /// A point of the tissue that was followed: a marked point of the surface, as in electromagnetic

@@ -53,7 +53,8 @@ std::string span_of(const Frames& frames) {
   return fmt::format("{:.3f} to {:.3f} s", first->time_s, last->time_s);
 }
 
-Frames by_number(Frames frames, const std::string& text, const std::string& path) {
+Frames by_number(Frames frames, const std::string& text, const std::string& path,
+                 const std::function<void(const std::string&)>& remark) {
   const auto [a, b] = ends_of(text);
   const double first = whole(a, text), last = whole(b, text);
   if (last < first) refuse_range(text);
@@ -67,6 +68,10 @@ Frames by_number(Frames frames, const std::string& text, const std::string& path
     throw InputError(fmt::format("--frames {}: {} has no such frame; its frames are {} to {}", text,
                                  path, low->number, high->number));
   }
+  const auto highest = std::max_element(
+      kept.begin(), kept.end(), [](const auto& p, const auto& q) { return p.number < q.number; });
+  if (b != a && highest->number < last && remark)
+    remark(fmt::format("--frames {}: the last frame there is {}", text, highest->number));
   return kept;
 }
 
@@ -206,6 +211,16 @@ void check_one_recording(const std::vector<ContourFrame>& frames, const std::str
       recordings.size() > 1 ? "--recording" : "--speaker"));
 }
 
+void check_times_rise(const std::vector<ContourFrame>& frames, const std::string& option,
+                      const std::string& path) {
+  for (size_t k = 1; k < frames.size(); ++k)
+    if (frames[k].time_s < frames[k - 1].time_s)
+      throw InputError(fmt::format(
+          "{}: takes frames for one movement, and in {} the time falls from {:.3f} s to {:.3f} s "
+          "at frame {}: does another take begin there? Choose one with --frames",
+          option, path, frames[k - 1].time_s, frames[k].time_s, frames[k].number));
+}
+
 std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const FrameChoice& choice,
                                         const std::string& path,
                                         const std::function<void(const std::string&)>& remark) {
@@ -219,7 +234,7 @@ std::vector<ContourFrame> chosen_frames(std::vector<ContourFrame> frames, const 
   if (!choice.frames.empty())
     frames = choice.frames.find('s') != std::string::npos
                  ? by_time(std::move(frames), choice.frames, path)
-                 : by_number(std::move(frames), choice.frames, path);
+                 : by_number(std::move(frames), choice.frames, path, remark);
   if (!choice.textgrid.empty())
     frames = labelled_frames(std::move(frames), choice.textgrid, choice.tier, path, remark);
   if (!choice.labels.empty())

@@ -27,6 +27,11 @@ std::vector<ContourFrame> of_one_speaker(std::vector<ContourFrame> frames,
 void check_one_recording(const std::vector<ContourFrame>& frames, const std::string& option,
                          const std::string& path);
 
+/// Throws InputError where times fall from frame to frame, as where two takes follow each other:
+/// for options that make one movement of all frames.
+void check_times_rise(const std::vector<ContourFrame>& frames, const std::string& option,
+                      const std::string& path);
+
 /// The frames that are asked for, of all that the file `path` has. Those that a TextGrid names have
 /// its labels; a frame's time is NaN where the file gives no times. `remark` hears which labels
 /// have no frame. No two have the same number: one recording is to be chosen where they would.

@@ -104,7 +104,10 @@ std::vector<Frame> frames_of(const Model& model, const std::vector<ContourFrame>
                              double noise, const InversionOptions& o) {
   for (const auto& [asked, option] :
        {std::pair{o.sequence, "--sequence"}, {o.smooth, "--smooth"}, {o.dynamic, "--dynamic"}})
-    if (asked) check_one_recording(contours, option, o.measured.target);
+    if (asked) {
+      check_one_recording(contours, option, o.measured.target);
+      check_times_rise(contours, option, o.measured.target);
+    }
   try {
     return make_frames(model, contours, noise, o.robust ? outlier_dof : 0);
   } catch (const InputError& e) {

@@ -138,6 +138,8 @@ TEST_F(TargetTest, CurvatureIsWhatGaussNewtonLeavesOut) {
   Target t = mixed();
   // Past an edge and past a corner of the surface.
   t.surface.push_back({node_position(m.rest, m.landmarks.tip) + Vec3(-4e-3, 1e-3, 0), 1e-3});
+  // Past the end of the line, and of one that may be longer.
+  for (const double longer : {0.0, 4e-3}) t.curve.push_back({Vec2(0.12, 0.055), 1e-3, longer});
   for (const double dof : {0.0, 4.0}) {
     t.outlier_dof = dof;
     const Comparison compare(m, t);

@@ -56,6 +56,12 @@ TEST(Comparison, PointsBeyondTheEndCostTheirDistance) {
   EXPECT_NEAR(r.distances[2], 0.06, 1e-6);
   EXPECT_GT(std::abs(r.values[1]), 9);
   EXPECT_GT(std::abs(r.values[2]), 28);
+  // Another speaker's line may be longer.
+  for (CurvePoint& p : t.curve) p.longer = 0.03;
+  const Residuals of_another = Comparison(m, t)(m.rest);
+  EXPECT_NEAR(of_another.distances[1], 0, 1e-6);
+  EXPECT_NEAR(of_another.distances[2], 0.03, 1e-6);
+  EXPECT_NEAR(of_another.values[2] / r.values[2], 0.5, 1e-3);
 }
 
 TEST(TongueLine, DistanceIsPositiveOutside) {
@@ -71,7 +77,8 @@ TEST(Comparison, GradientIsTheDerivativeOfTheResiduals) {
   const Model m = read_model(test::generic_model());
   Target t = curve_target(m, m.rest, 20, 5e-4);
   for (auto& p : t.curve) p.position += Vec2(1e-3, 1.5e-3);
-  t.curve.push_back({Vec2(0.12, 0.055), 1e-3});  // beyond the end of the line
+  // Beyond the end of the line, and of one that may be longer.
+  for (const double longer : {0.0, 4e-3, 0.1}) t.curve.push_back({Vec2(0.12, 0.055), 1e-3, longer});
   t.flesh.push_back({{{m.landmarks.tip, 1.0}}, Vec3(0.055, std::nan(""), 0.1), 1e-3, "tip"});
   t.surface.push_back({Vec3(0.095, 0.012, 0.118), 1e-3});
   const Comparison compare(m, t);

@@ -133,6 +133,23 @@ TEST_F(FrameChoices, OneProblemIsOfOneRecording) {
   EXPECT_THROW(check_one_recording(frames, "--smooth", "file.csv"), InputError);
 }
 
+TEST_F(FrameChoices, OneMovementGoesForwardInTime) {
+  auto frames = timed(6);
+  EXPECT_NO_THROW(check_times_rise(frames, "--sequence", "file.csv"));
+  for (size_t k = 3; k < 6; ++k) frames[k].time_s = 0.01 * double(k - 3);
+  EXPECT_THROW(check_times_rise(frames, "--sequence", "file.csv"), InputError);
+  for (auto& f : frames) f.time_s = std::nan("");
+  EXPECT_NO_THROW(check_times_rise(frames, "--sequence", "file.csv"));
+}
+
+TEST_F(FrameChoices, ARangeBeyondTheLastFrameIsTold) {
+  EXPECT_EQ(chosen(timed(4), {.frames = "3-9"}), (Names{"3", "4"}));
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_NE(remarks[0].find("the last frame there is 4"), std::string::npos);
+  chosen(timed(4), {.frames = "3-4"});
+  EXPECT_TRUE(remarks.empty());
+}
+
 TEST_F(FrameChoices, ATierIsOfATextGrid) {
   EXPECT_NE(refusal(timed(3), {.tier = "phones"}).find("--textgrid"), std::string::npos);
 }

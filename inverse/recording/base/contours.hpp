@@ -28,6 +28,7 @@ struct ContourFrame {
   std::string recording, speaker;  ///< which take, and whose, where given
   std::string note;                ///< why it has no points, or which were left out
   std::vector<ContourPoint> points;
+  bool registered = false;  ///< it is another speaker's, laid beside the model
 };
 
 /// What one assumes when nobody says [m]: of points that come from anywhere, of ultrasound.

@@ -7,8 +7,9 @@ namespace genio {
 
 /// The file, in metres, with stray points of its curves left out, at most three in a row between
 /// jumps of over 15 mm and eight times the usual spacing; the frame's note and the remarks count
-/// them. Throws InputError naming `path` and the frame where points go on and then start again
-/// beside the first ones: two takes in one frame.
+/// them. A frame whose points go on and then start again beside the first ones, two takes in one,
+/// keeps no point and says why. Throws InputError naming `path` and the frame where those are more
+/// than a tenth.
 ContourFile with_one_curve_a_frame(ContourFile file, const std::string& path);
 
 }  // namespace genio

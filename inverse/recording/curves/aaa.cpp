@@ -141,8 +141,8 @@ std::vector<AaaKnot> knots_of(const std::vector<std::string>& fields, const Knot
     for (const auto& [column, text, value] :
          {std::tuple{cx, &tx, &knot.x}, std::tuple{cy, &ty, &knot.y}})
       if (!numbers.parse(*text, *value))
-        lines.fail(fmt::format("knot {}, field {}: {}; expected two numbers or '*'", k, column + 1,
-                               numbers.complaint(*text)));
+        lines.fail(fmt::format("knot {}, field {}: {}; expected two numbers, or '*' for both", k,
+                               column + 1, numbers.complaint(*text)));
     knots.push_back(knot);
   }
   return knots;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "inverse/recording/base/table_text.hpp"
 #include "inverse/recording/samples/sensor_channels.hpp"
@@ -74,6 +75,7 @@ RawContours read(const std::string& path, const ReadOptions& o) {
   SensorTable table;
   TableNumbers numbers('\t');
   bool titled = false;
+  std::optional<bool> row_names;  // R writes a row's name before its values, and no title for it
   for (std::string line; lines.next(line);) {
     auto fields = sensor_fields(line);
     if (fields.empty()) continue;
@@ -86,8 +88,8 @@ RawContours read(const std::string& path, const ReadOptions& o) {
       table.names = layout.names;
       if (titled) continue;
     }
-    // R writes a row's name before its values, and no title for it.
-    if (titled && fields.size() == layout.columns + 1) fields.erase(fields.begin());
+    if (!row_names) row_names = titled && fields.size() == layout.columns + 1;
+    if (*row_names && fields.size() == layout.columns + 1) fields.erase(fields.begin());
     if (fields.size() != layout.columns)
       lines.fail(other_count(fields.size(), titled ? "header" : "first row", layout.columns, line));
     auto& row = table.samples.emplace_back();

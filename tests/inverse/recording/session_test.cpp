@@ -215,6 +215,30 @@ TEST_F(SessionOfAModel, SensorsFarFromTheirPlacesAreAFault) {
   EXPECT_FALSE(align(*model, {"t", file, {}}, sweep, said).judgement.faults.empty());
 }
 
+TEST_F(SessionOfAModel, SensorsNamedFromTheRootAreAskedAbout) {
+  // A short sweep is nearly its own mirror image, so that the names turn the head.
+  const std::vector<std::string> places = {"tip+8mm", "tip+20mm", "tip+35mm", "tip+50mm"};
+  const AxesReading reading{0, 2, false, true};
+  const auto aligned_as = [&](bool from_the_root) {
+    std::vector<std::pair<Vec2, std::string>> points;
+    for (size_t k = 0; k < places.size(); ++k) {
+      const Vec3 rest = place_at_rest(*model, places[k]);
+      points.emplace_back(Vec2(rest[0], rest[2]), places[from_the_root ? 3 - k : k]);
+    }
+    return align(*model, {"t", file_of(points, reading, Content::sensors), {}},
+                 palate(reading, Content::sensors), {});
+  };
+  const auto named = [](const AlignedRecording& a) {
+    const auto tells = [](const std::string& line) {
+      return line.find("from tip to root?") != std::string::npos;
+    };
+    return std::any_of(a.file.remarks.begin(), a.file.remarks.end(), tells) ||
+           std::any_of(a.judgement.faults.begin(), a.judgement.faults.end(), tells);
+  };
+  EXPECT_FALSE(named(aligned_as(false)));
+  EXPECT_TRUE(named(aligned_as(true)));
+}
+
 TEST_F(SessionOfAModel, WithoutAPalateAMirroredHabitIsAskedAbout) {
   const AxesReading true_one{0, 2, false, true};  // as the format has it
   const FileAxes format{"mm", "right", "up"};

@@ -72,6 +72,18 @@ TEST_F(Formats, EmaText) {
   EXPECT_DOUBLE_EQ(f.frames[1].time_s, 0.004);
 }
 
+TEST_F(Formats, OneRowOfAg501TextWithAFieldTooManyIsNamed) {
+  const std::string header = "Ch1_X\tCh1_Y\tCh1_Z\tCh1_phi\tCh1_theta\tCh1_RMS\tCh1_Extra\n";
+  const std::string row = "10\t1\t-3\t0\t0\t4\t0";
+  ReadOptions o;
+  o.sensors = {{"1", "tip"}};
+  EXPECT_EQ(
+      read_raw(write("r.txt", header + "1\t" + row + "\n2\t" + row + "\n"), o).file.frames.size(),
+      2u);
+  EXPECT_THROW(read_raw(write("e.txt", header + row + "\n" + row + "\t5\n" + row + "\n"), o),
+               InputError);
+}
+
 TEST_F(Formats, EmaSsff) {
   std::string text =
       "SSFF -- (c) SHLRC\nMachine IBM-PC\nRecord_Freq 200.0\nStart_Time 0.0\nColumn tt FLOAT 2\n"
