@@ -7,6 +7,7 @@
 #include "inverse/posterior/posterior.hpp"
 #include "inverse/search/full_space.hpp"
 #include "inverse/search/global_starts.hpp"
+#include "inverse/search/mixed_optima.hpp"
 #include "inverse/target/comparison.hpp"
 
 namespace genio {
@@ -58,8 +59,9 @@ std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, cons
   return starts;
 }
 
-/// The likeliest of `found`, the distinct others as its alternatives.
-Answer weighed(std::vector<Answer> found) {
+/// The likeliest of `found`, the distinct others as its alternatives. Its estimates hold all.
+Answer weighed(std::vector<Answer> found, const std::vector<Unknown>& unknowns,
+               const PriorTerms& prior) {
   std::stable_sort(found.begin(), found.end(), [](const Answer& a, const Answer& b) {
     return a.log_evidence > b.log_evidence;
   });
@@ -71,10 +73,14 @@ Answer weighed(std::vector<Answer> found) {
   for (const Answer& a : kept) sum += std::exp(a.log_evidence - kept.front().log_evidence);
   Answer best = std::move(kept.front());
   best.weight = 1 / sum;
+  std::vector<WeighedOptimum> others;
   for (size_t k = 1; k < kept.size(); ++k)
     if (const double w = std::exp(kept[k].log_evidence - best.log_evidence) / sum;
-        w >= least_weight)
+        w >= least_weight) {
+      others.push_back({w, &kept[k]});
       best.alternatives.push_back({w, kept[k].muscles, kept[k].rms, kept[k].shape});
+    }
+  mix_optima(unknowns, prior, others, best);
   return best;
 }
 
@@ -118,7 +124,12 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     if (last.status == InferStatus::cancelled || last.status == InferStatus::deadline) break;
     if (until_explained && last.verdict == Verdict::explained) break;
   }
-  Answer best = found.empty() ? last : weighed(std::move(found));
+  Answer best = std::move(last);
+  if (!found.empty()) {
+    const auto unknowns =
+        unknowns_of(model, prior, options.bilateral.value_or(target.midsagittal()));
+    best = weighed(std::move(found), unknowns, prior_terms(prior, unknowns));
+  }
   best.wall_s = watch.seconds(), best.iterations = iterations;
   best.factorizations = factorizations, best.forward_solves = solves;
   return best;

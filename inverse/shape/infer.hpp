@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "inverse/target/target.hpp"
 
 namespace genio {
+
+struct ActingPosterior;
 
 struct InferOptions {
   std::optional<bool> bilateral;  ///< unset: left and right together for midsagittal targets
@@ -59,8 +62,11 @@ struct Answer {
   std::vector<JointForce> joint;  ///< muscles of which one acts, though each may rest
   /// Probability that left and right are the other way round, where the shape hardly tells.
   std::optional<double> mirrored;
-  std::vector<TradeOff> unidentified;     ///< muscles the data cannot tell apart
-  double weight = 1;                      ///< of this optimum among those found
+  std::vector<TradeOff> unidentified;  ///< muscles the data cannot tell apart
+  double weight = 1;                   ///< of this optimum among those found
+  /// Optima whose samples the estimates hold, by their weights; see infer_from_starts.
+  int mixed_optima = 1;
+  std::shared_ptr<const ActingPosterior> posterior;  ///< what the estimates were made of
   std::vector<Alternative> alternatives;  ///< the others, likeliest first; see infer_from_starts
   double log_evidence = 0;                ///< of the data, by Laplace's method about this optimum
   double rms = 0, max = 0;                ///< distance of the measured points from the shape [m]

@@ -26,23 +26,21 @@ LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint&
                          objective.exact_hessian(optimum), objective.gauss_newton(optimum));
 }
 
-namespace {
-
-/// Fills the estimates of muscles and others.
-void set_estimates(const Objective& objective, const ActingPosterior& posterior,
-                   const LocalPosterior& narrow, const Vector& z, Answer& answer) {
-  const PriorTerms& prior = objective.prior();
+void set_estimates(const std::vector<Unknown>& unknowns, const PriorTerms& prior,
+                   const ActingPosterior& posterior, const Vector& z, Answer& answer) {
   // Only of what never rests.
   const bool all_rest = (posterior.belief.slab.array() > 0).all();
   const Matrix before = all_rest ? Matrix() : sample(density_of(prior), prior_sample_count);
   const auto& [values, weights] = posterior.samples;
+  std::vector<Estimate> old = std::move(answer.muscles);
+  old.insert(old.end(), answer.others.begin(), answer.others.end());
   answer.muscles.clear(), answer.others.clear();
   for (Eigen::Index i = 0, f = 0; i < z.size(); ++i) {
-    const Unknown& c = objective.unknowns()[size_t(i)];
+    const Unknown& c = unknowns[size_t(i)];
     Estimate e{c.name, c.value(z[i]), c.scale, c.unit, c.kind};
     e.low = e.high = e.median = e.mean = e.best;
-    e.fixed = prior.fixed(i);
-    if (!e.fixed) {
+    const bool fixed = prior.fixed(i);
+    if (!fixed) {
       const double lower = prior.lower[i], upper = prior.upper[i];
       if (posterior.belief.slab[f] > 0) {
         const ActingSummary s = summarise_acting(values.row(f), weights, upper);
@@ -52,14 +50,29 @@ void set_estimates(const Objective& objective, const ActingPosterior& posterior,
         e = estimate(c, z[i], summarise(values.row(f), weights, lower, upper),
                      summarise(before.row(f), lower, upper).sd);
       }
-      const int side = pressed(narrow.density, f);
-      e.at_lower = side<0, e.at_upper = side> 0;
-      if (side != 0) e.multiplier = std::abs(narrow.density.slope[f]);
       ++f;
+    }
+    e.fixed = fixed;
+    if (size_t(i) < old.size()) {
+      const Estimate& was = old[size_t(i)];
+      e.at_lower = was.at_lower, e.at_upper = was.at_upper, e.multiplier = was.multiplier;
     }
     (c.kind == Unknown::Kind::muscle ? answer.muscles : answer.others).push_back(std::move(e));
   }
-  answer.joint = joint_forces(posterior, objective.unknowns());
+  answer.joint = joint_forces(posterior, unknowns);
+}
+
+namespace {
+
+/// Which bounds press, and how hard.
+void set_bounds(const LocalPosterior& narrow, Answer& answer) {
+  for (size_t f = 0; f < narrow.which.size(); ++f) {
+    const auto i = size_t(narrow.which[f]), muscles = answer.muscles.size();
+    Estimate& e = i < muscles ? answer.muscles[i] : answer.others[i - muscles];
+    const int side = pressed(narrow.density, Eigen::Index(f));
+    e.at_lower = side<0, e.at_upper = side> 0;
+    if (side != 0) e.multiplier = std::abs(narrow.density.slope[Eigen::Index(f)]);
+  }
 }
 
 }  // namespace
@@ -75,7 +88,9 @@ void summarise_posterior(Objective& objective, const ObjectivePoint& point,
   const auto& which = narrow.which;
   ActingPosterior posterior = settled_posterior(objective, optimum, comparison, error).posterior;
   answer.mirrored = mix_mirrored(objective, optimum, posterior);
-  set_estimates(objective, posterior, narrow, z, answer);
+  set_estimates(unknowns, prior, posterior, z, answer);
+  set_bounds(narrow, answer);
+  answer.posterior = std::make_shared<ActingPosterior>(std::move(posterior));
 
   std::vector<std::string> at_maximum, at_zero;
   std::vector<Eigen::Index> free;

@@ -2,12 +2,18 @@
 // An answer from the optimum of an objective.
 
 #include "inverse/posterior/posterior.hpp"
+#include "inverse/shape/acting_posterior.hpp"
 #include "inverse/shape/objective.hpp"
 
 namespace genio {
 
 /// The posterior about an optimum of the objective.
 LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint& optimum);
+
+/// Fills estimates and joint statements of `answer` from the posterior's samples, at the best fit
+/// z; keeps what its estimates say of bounds.
+void set_estimates(const std::vector<Unknown>& unknowns, const PriorTerms& prior,
+                   const ActingPosterior& posterior, const Vector& z, Answer& answer);
 
 /// Fills estimates, unidentified groups, chi2, verdict and evidence of `answer` from the optimum's
 /// derivatives.

@@ -86,6 +86,9 @@ std::string to_table(const AnswerView& v) {
       if (c.best > 0.01 * c.maximum) out += fmt::format(" {} {:.2f} N", c.name, c.best);
     out += "\n";
   }
+  if (v.mixed_optima > 1)
+    out += fmt::format("mixed    acts, median and interval hold {} optima by their weights\n",
+                       v.mixed_optima);
   if (v.outliers > 0)
     out += fmt::format("outliers {} values beyond three standard deviations\n", v.outliers);
   out += fmt::format("status   {}\nverdict  {}{}{}\n", v.status, v.verdict,

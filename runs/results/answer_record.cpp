@@ -53,7 +53,7 @@ nlohmann::json to_json(const AnswerView& v, int frame) {
     for (const Share& share : trade) one[share.name] = share.amount;
     j["trade_offs"].push_back(std::move(one));
   }
-  j["weight"] = v.weight;
+  j["weight"] = v.weight, j["mixed_optima"] = v.mixed_optima;
   j["alternatives"] = nlohmann::json::array();
   for (const Alternative& other : v.alternatives) {
     nlohmann::json one = {{"weight", other.weight}, {"rms_mm", 1e3 * other.rms}};

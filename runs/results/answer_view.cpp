@@ -41,7 +41,8 @@ AnswerView view_of(const Model& model, const Target& target, const Answer& a) {
   v.muscles = a.muscles, v.others = a.others, v.joint = a.joint, v.mirrored = a.mirrored,
   v.trade_offs = a.unidentified;
   for (const TradeOff& trade : a.unidentified) v.unidentified.push_back(names(trade));
-  v.weight = a.weight, v.alternatives = a.alternatives, v.outliers = a.residuals.outliers;
+  v.weight = a.weight, v.alternatives = a.alternatives, v.mixed_optima = a.mixed_optima,
+  v.outliers = a.residuals.outliers;
   v.rms_mm = 1e3 * a.rms, v.max_mm = 1e3 * a.max, v.chi2_per_dof = a.chi2_per_dof;
   v.wall_s = a.wall_s, v.iterations = a.iterations, v.factorizations = a.factorizations;
   v.measured = measured_points(target, pose_of(a.others));

@@ -19,6 +19,7 @@ struct AnswerView {
   std::vector<TradeOff> trade_offs;  ///< of each unidentified group
   double weight = 1;
   std::vector<Alternative> alternatives;
+  int mixed_optima = 1;  ///< that the estimates hold, this one among them
   std::optional<double> mirrored;
   int outliers = 0;
   double rms_mm = 0, max_mm = 0, chi2_per_dof = 0, wall_s = 0;

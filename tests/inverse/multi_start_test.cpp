@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "inverse/search/mixed_optima.hpp"
 #include "inverse/target/comparison.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
@@ -114,6 +115,28 @@ TEST_F(MultiStart, WeightsOfAllOptimaAddUp) {
   }
   EXPECT_LE(sum, 1 + 1e-12);
   EXPECT_GT(sum, 0.9);
+}
+
+TEST_F(MultiStart, EstimatesHoldMixedOptimaByTheirWeights) {
+  const auto unknowns = muscle_unknowns(m, true);
+  const PriorTerms terms = prior_terms(Prior{}, unknowns);
+  const Answer one = infer(m, pulled({{"GGP", 3}}), Prior{}, ws),
+               other = infer(m, pulled({{"STY", 3}}), Prior{}, ws);
+  Answer light = one, mixed = one;
+  light.weight = 0.97, mixed.weight = 0.6;
+  mix_optima(unknowns, terms, {{0.03, &other}}, light);
+  EXPECT_EQ(light.mixed_optima, 1);
+  EXPECT_EQ(light.muscles[0].mean, one.muscles[0].mean);
+  mix_optima(unknowns, terms, {{0.4, &other}}, mixed);
+  EXPECT_EQ(mixed.mixed_optima, 2);
+  for (size_t i = 0; i < mixed.muscles.size(); ++i) {
+    const Estimate &e = mixed.muscles[i], &a = one.muscles[i], &b = other.muscles[i];
+    EXPECT_NEAR(e.acts, 0.6 * a.acts + 0.4 * b.acts, 1e-9) << e.name;
+    EXPECT_NEAR(e.mean, 0.6 * a.mean + 0.4 * b.mean, 1e-9 * e.maximum) << e.name;
+    EXPECT_EQ(e.best, a.best);
+    EXPECT_EQ(e.at_lower, a.at_lower);
+    EXPECT_EQ(e.multiplier, a.multiplier);
+  }
 }
 
 }  // namespace

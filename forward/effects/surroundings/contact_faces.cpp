@@ -22,14 +22,14 @@ constexpr double field_error = 0.3e-3;    // of the spline at an edge [m]
 /// another side of the bone, behind the plane of the surface's nearest place. `near`: as for
 /// SurfaceDistance.
 std::optional<double> rest_clearance(const DistanceField& field, const Vec3& at, int& near) {
-  if (field.rough(at) > another_side) return saliva_film;
+  if (field.rough(at) > another_side) return contact_gap;
   const auto foot = field.exact().face().foot(at, near);
   if ((at - foot.place).dot(foot.normal.normalized()) <
       -(foot.on_rim ? field_error : deepest_overlap))
     return std::nullopt;
   double distance = field.exact().from(foot, at, near);
   if (distance < field_error) distance = field.value(at);
-  return std::min(saliva_film, distance);
+  return std::min(contact_gap, distance);
 }
 
 /// Cells between points along a face: a power of 2.
@@ -50,7 +50,7 @@ ContactFace contact_face(const DistanceField& field, const HexMesh& mesh, const 
   for (int j = 0; j <= face.cells_v; ++j)
     for (int i = 0; i <= face.cells_u; ++i) {
       const double u = double(i) / face.cells_u, v = double(j) / face.cells_v;
-      ContactPoint point{{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}, 0, saliva_film};
+      ContactPoint point{{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}, 0, contact_gap};
       const auto& w = point.weight;
       const Vec3 by_u = (1 - v) * (x[1] - x[0]) + v * (x[2] - x[3]);
       const Vec3 by_v = (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1]);

@@ -10,16 +10,16 @@
 
 namespace genio {
 
-/// Saliva keeps tongue and bone apart [m]: Collins & Dawes (1987) measured a film of 0.07 to 0.1
-/// mm. It also covers what the spline rounds off an edge.
-constexpr double saliva_film = 1e-4;
+/// What keeps tongue and bone apart [m]: saliva, of which Collins & Dawes (1987) measured a film of
+/// 0.07 to 0.1 mm, and 0.2 mm that round off the bone's edges. A sharper edge catches between the
+/// points that touch and holds the tongue where it happens to be.
+constexpr double contact_gap = 3e-4;
 
 /// A point of a face that may touch, and the part of the surface that it stands for.
 struct ContactPoint {
   std::array<double, 4> weight;  ///< of the face's nodes: bilinear shape functions
   double area;                   ///< [m^2]
-  double
-      clearance;  ///< of the bone that it keeps [m]: the film, or less where it is nearer at rest
+  double clearance;  ///< of the bone that it keeps [m]: the gap, or less where it is nearer at rest
 };
 
 /// A face with points on a grid of 2^m by 2^n cells, row by row, edges and corners included.
@@ -44,7 +44,7 @@ struct ContactFaces {
 std::shared_ptr<const ContactFaces> contact_faces(const TriangleSurface& surface,
                                                   const HexMesh& mesh,
                                                   const std::vector<Support>& supports,
-                                                  double apart = 0.5e-3);
+                                                  double apart = 0.25e-3);
 
 /// A point between four corners by their weights.
 inline Vec3 blend(const std::array<Vec3, 4>& x, const std::array<double, 4>& weight) {

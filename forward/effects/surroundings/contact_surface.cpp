@@ -37,7 +37,7 @@ class TouchSearch {
 
   bool clear(const Piece& piece) const {
     const Sphere all(piece.corner);
-    return placed_.at_least(all.centre, all.radius) > saliva_film;
+    return placed_.at_least(all.centre, all.radius) > contact_gap;
   }
 
   void look_at(const Piece& p) {

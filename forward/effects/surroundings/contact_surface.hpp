@@ -55,10 +55,10 @@ class PlacedSurface {
   Mat3 turn_ = Mat3::Identity();
 };
 
-/// The contact's spring at a depth [m]: it sets in softly over 0.05 mm, and hardens 150 times over
+/// The contact's spring at a depth [m]: it sets in softly over 0.055 mm, and hardens 150 times over
 /// as much again, as the whole load of a tongue may rest on an edge.
 inline SoftSpring contact_spring(double depth) {
-  constexpr double soft_depth = 5e-5, harder = 150;  // [m], -
+  constexpr double soft_depth = 5.5e-5, harder = 150;  // [m], -
   const SoftSpring first(depth, soft_depth);
   if (depth <= soft_depth) return first;
   const SoftSpring second(depth - soft_depth, soft_depth);

@@ -30,7 +30,7 @@ class DistanceField {
   /// outside the box a large positive constant [m].
   double value(const Vec3& p) const;
   DistanceSample sample(const Vec3& p) const;
-  /// The same where it may be less than 0.2 mm; elsewhere perhaps only some larger number [m].
+  /// The same where it may be less than 0.4 mm; elsewhere perhaps only some larger number [m].
   double value_if_touching(const Vec3& p) const;
   /// By the coarse grid alone [m].
   double rough(const Vec3& p) const;
