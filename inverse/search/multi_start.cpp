@@ -17,6 +17,8 @@ constexpr double least_weight = 0.01;  // of an alternative worth telling
 constexpr double apart = 3;            // posterior standard deviations between distinct optima
 constexpr int patience = 5;            // descents for a target that no answer explains
 constexpr int warm_patience = 4;       // the same with a start of the caller's
+constexpr int longest_patience = 16;   // where no two of them end alike
+constexpr double far_off = 3;          // chi-square over its degrees of freedom
 
 /// Draws of the prior within its bounds, a column each.
 Matrix prior_draws(const PriorTerms& prior, int count) {
@@ -35,6 +37,18 @@ bool distinct(const Answer& a, const Answer& b) {
   }
   // The same forces may hold two shapes.
   return (a.shape - b.shape).cwiseAbs().maxCoeff() > 1e-3;
+}
+
+/// True where the likeliest optimum was found more than once; of one that is far off the target,
+/// more than three times.
+bool settled(const std::vector<Answer>& found) {
+  if (found.empty()) return false;
+  const Answer& best = *std::max_element(
+      found.begin(), found.end(),
+      [](const Answer& a, const Answer& b) { return a.log_evidence < b.log_evidence; });
+  const auto times = std::count_if(found.begin(), found.end(),
+                                   [&](const Answer& a) { return !distinct(a, best); });
+  return times > (best.chi2_per_dof > far_off ? 3 : 1);
 }
 
 /// Where to start from when nothing better is known, in the order to try.
@@ -89,7 +103,8 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
   const Model& model = *tongue.model;
   const bool until_explained = start_options.starts == 0;
   const bool given = options.start.size() > 0;
-  const int most = !until_explained ? start_options.starts : given ? warm_patience : patience;
+  const int most = until_explained ? longest_patience : start_options.starts;
+  const int enough = given ? warm_patience : patience;
   std::vector<Atlas::Entry> starts;
   if (given)
     starts.push_back(
@@ -123,6 +138,8 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     if (last.status == InferStatus::converged) found.push_back(last);
     if (last.status == InferStatus::cancelled || last.status == InferStatus::deadline) break;
     if (until_explained && last.verdict == Verdict::explained) break;
+    // An optimum that was found once only may not be the best that there is.
+    if (until_explained && k + 1 >= enough && settled(found)) break;
   }
   Answer best = std::move(last);
   if (!found.empty()) {

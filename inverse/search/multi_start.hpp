@@ -6,7 +6,8 @@
 namespace genio {
 
 struct StartOptions {
-  /// Descents a target gets. 0: one, and more only until the misfit is within noise.
+  /// Descents a target gets. 0: one, and more only until the misfit is within noise, five or, while
+  /// the likeliest optimum was found once only, up to sixteen.
   int starts = 0;
 };
 
