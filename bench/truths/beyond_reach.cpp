@@ -14,8 +14,12 @@ constexpr double stretch = 0.1, open_least = 4, open_most = 12;  // -, [degrees]
 /// Longer or shorter, higher or lower; bones stay away, as they are another speaker's.
 ModelDescription other_anatomy(ModelDescription d, std::mt19937& random) {
   std::uniform_real_distribution<double> part(0.6, 1.4);
-  const auto factor = [&] { return 1 + (random() % 2 ? 1 : -1) * stretch * part(random); };
-  const Vec3 by(factor(), 1, factor());
+  const auto factor = [&] {
+    const double sign = random() % 2 ? 1 : -1;
+    return 1 + sign * stretch * part(random);
+  };
+  Vec3 by(factor(), 1, 1);
+  by[2] = factor();
   Vec3 middle = Vec3::Zero();
   for (const Vec3& x : d.mesh.nodes) middle += x / double(d.mesh.nodes.size());
   const auto scaled = [&](const Vec3& x) -> Vec3 {

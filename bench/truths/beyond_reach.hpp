@@ -1,8 +1,6 @@
 #pragma once
 // Shapes that the model cannot make, to see whether its verdict says so.
 
-#include <array>
-#include <optional>
 #include <random>
 
 #include "bench/truths/erring_tongue.hpp"
@@ -16,8 +14,6 @@ enum class Beyond {
   open_jaw         ///< its jaw opened by some degrees, which the model keeps shut
 };
 
-inline constexpr std::array all_beyond = {Beyond::pushed_surface, Beyond::other_anatomy,
-                                          Beyond::open_jaw};
 const char* to_string(Beyond kind);
 
 /// A tongue of another anatomy, or with its jaw open. Throws std::invalid_argument for a pushed

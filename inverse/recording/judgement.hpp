@@ -35,7 +35,7 @@ Judgement judge(const Model& model, const Registration& registration,
 inline constexpr double most_tilt = 45 * std::numbers::pi / 180;
 
 /// Judges the points of a scan that lie in the model's frame, and how they came there, which is
-/// left out where the caller says so. A scanner may stand as it likes: its tilt is no fault.
+/// left out where the caller says so. A scanner may stand as it likes: its tilt is no fault here.
 Judgement judge_scan(const Model& model, const std::vector<Vec3>& points,
                      const std::optional<ScanRegistration>& registration, bool has_palate);
 

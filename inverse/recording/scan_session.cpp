@@ -140,11 +140,13 @@ AlignedScan align_scan(const Model& model, SessionFile target,
         "its points lie on the palate's surface: was the palate given as the tongue?");
   const AxesReading reading = nearest_reading(best.pose, options);
   set_turns(judgement, best.pose, reading, middle);
-  if (!options.axes.empty() && std::abs(judgement.tilt) > most_tilt)
+  const double turn =
+      Eigen::AngleAxisd(Mat3(best.pose.turn * rotation_of(reading).transpose())).angle();
+  if (!options.axes.empty() && turn > most_tilt)
     judgement.faults.push_back(fmt::format(
-        "it is tilted by {:.0f} degrees against the axes that were said, and no head is by more "
+        "it is turned by {:.0f} degrees against the axes that were said, and no head is by more "
         "than {:.0f}: without --axes they are found",
-        std::abs(judgement.tilt) * 180 / std::numbers::pi, most_tilt * 180 / std::numbers::pi));
+        turn * 180 / std::numbers::pi, most_tilt * 180 / std::numbers::pi));
   AlignedScan result{std::move(target.file), best, reading, judgement};
   for (ContourFrame& frame : result.file.frames)
     for (ContourPoint& p : frame.points) p.position = best.pose(p.position);

@@ -166,10 +166,20 @@ std::string other_order(const Model& model, const ContourFile& file) {
   return {};
 }
 
-/// " (are the units cm?)" where other units would explain a distance; else empty.
-std::string other_units(double seen, double modelled) {
-  for (const auto& [unit, factor] : {std::pair{"cm", 10.0}, {"m", 1000.0}, {"um", 1e-3}})
-    if (const double ratio = factor * seen / modelled; ratio > 0.5 && ratio < 2)
+/// In millimetres, as many digits as tell something.
+std::string length_text(double length) {
+  return length < 1e-3 ? fmt::format("{:.2g}", 1e3 * length) : fmt::format("{:.1f}", 1e3 * length);
+}
+
+/// " (are its units cm? ...)" where other units would explain a distance; else empty.
+std::string other_units(const std::string& units, double seen, double modelled) {
+  static const std::map<std::string, double> metres = {
+      {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}};
+  const auto own = metres.find(units);
+  if (own == metres.end()) return {};
+  for (const auto& [unit, size] : metres)
+    if (const double ratio = size / own->second * seen / modelled;
+        unit != units && ratio > 0.5 && ratio < 2)
       return fmt::format(" (are its units {}? --units says so)", unit);
   return {};
 }
@@ -192,8 +202,9 @@ std::string other_distance(const Model& model, const ContourFile& file,
       if (ratio <= worst_ratio) continue;
       worst_ratio = ratio;
       worst = fmt::format(
-          "the sensors at {} and {} are {:.2g} mm apart, these places {:.1f} mm in the model{}",
-          kinds[i], kinds[j], 1e3 * seen, 1e3 * modelled, other_units(seen, modelled));
+          "the sensors at {} and {} are {} mm apart, these places {:.1f} mm in the model{}",
+          kinds[i], kinds[j], length_text(seen), 1e3 * modelled,
+          other_units(file.units, seen, modelled));
     }
   return worst;
 }
@@ -242,8 +253,6 @@ std::string place_contradiction(const Model& model, const ContourFile& file,
   if (worst.empty()) worst = other_order(model, file);
   if (worst.empty()) worst = other_distance(model, file, scales, stretch);
   if (worst.empty()) return {};
-  if (worst.ends_with("says so)"))
-    return worst;  // places by distances in wrong units would mislead
   std::string proposal;
   for (const auto& [kind, arc] : places_by_distance(model, file))
     proposal += fmt::format("{}{} at tip+{:.0f}mm", proposal.empty() ? " " : ", ", kind, 1e3 * arc);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "inverse/recording/session_faults.hpp"
@@ -132,22 +133,25 @@ std::string described(const Candidate& c, Content content) {
       c.cost, c.reading.options(content));
 }
 
-/// The cheapest reading where the sensors are named in the other order along the tongue; empty
-/// where their distances tell that they are not.
+/// The cheapest sound reading where the sensors are named in the other order along the tongue;
+/// empty where there is none.
 std::optional<Candidate> reversed_order(const Model& model, const TongueReach& reach,
-                                        Traces session, const Vec3& extent) {
+                                        Traces session, const Vec3& extent,
+                                        const std::function<bool(const AxesReading&)>& allowed) {
   const ContourFile other = in_other_order(model, *session.target);
   session.target = &other;
   std::optional<Candidate> best;
   if (other.frames.empty()) return best;
-  for (const AxesReading& reading : all_readings(other))
-    if (in_plane(reading, extent))
-      if (Candidate c = candidate(model, reach, session, reading); !best || c.cost < best->cost)
-        best = std::move(c);
-  if (best && !doubtful_places(model, turned(other, best->reading), best->registration,
-                               session.palate != nullptr)
-                   .empty())
-    best.reset();
+  for (const AxesReading& reading : all_readings(other)) {
+    if (!in_plane(reading, extent) || !allowed(reading)) continue;
+    Candidate c = candidate(model, reach, session, reading);
+    if (best && c.cost >= best->cost) continue;
+    const ContourFile seen = turned(other, reading);
+    const bool by_palate = session.palate != nullptr;
+    if (doubtful_places(model, seen, c.registration, by_palate).empty() &&
+        judge(model, c.registration, midsagittal_points(seen), by_palate).faults.empty())
+      best = std::move(c);
+  }
   return best;
 }
 
@@ -225,7 +229,9 @@ AlignedRecording align_by_all(const Model& model, const TongueReach& reach, Sess
                     described(others.front(), content), described(best, content)));
   std::optional<Candidate> reversed;  // where the sensors may be named from the root
   if (content == Content::sensors && options.axes.empty())
-    reversed = reversed_order(model, reach, session, extent);
+    reversed = reversed_order(model, reach, session, extent, [&](const AxesReading& r) {
+      return agrees(r, target.axes, options, content);
+    });
   const bool on_palate = palate && is_the_palate(target.file, palate->file);
   const double bite_plane_off = contradiction(model, reach, session, best);
   AlignedRecording result{turned(std::move(target.file), best.reading),

@@ -28,6 +28,7 @@ void mix_optima(const std::vector<Unknown>& unknowns, const PriorTerms& prior,
     if (weight >= least_mixed && answer->posterior)
       add(*answer->posterior, weight, mixed.samples), ++best.mixed_optima;
   if (best.mixed_optima == 1) return;
+  mixed.samples.weights /= mixed.samples.weights.sum();
   set_estimates(unknowns, prior, mixed, best.activations, best);
   best.posterior = std::make_shared<ActingPosterior>(std::move(mixed));
 }

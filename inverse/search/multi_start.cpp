@@ -61,12 +61,14 @@ std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, cons
   const Atlas& atlas = tongue.atlas.get(model, prior, bilateral, tongue.workspace);
   const Comparison comparison(model, target);
   const auto near = nearest(atlas, comparison, unknowns, terms);
-  // The nearest known shape first; then, in halves, the valleys that its neighbours foretell and
-  // the other shapes.
+  // The nearest known shape first; then the valleys that its neighbours foretell and the other
+  // shapes in turn.
   if (!near.empty()) starts.push_back(*near.front());
-  for (auto& valley : valleys(atlas, comparison, unknowns, terms, count / 2))
-    if (int(starts.size()) < count) starts.push_back(std::move(valley));
-  for (size_t k = 1; k < near.size() && int(starts.size()) < count; ++k) starts.push_back(*near[k]);
+  auto foretold = valleys(atlas, comparison, unknowns, terms, count / 2);
+  for (size_t k = 0; k < std::max(foretold.size(), near.size()); ++k) {
+    if (k < foretold.size() && int(starts.size()) < count) starts.push_back(std::move(foretold[k]));
+    if (k + 1 < near.size() && int(starts.size()) < count) starts.push_back(*near[k + 1]);
+  }
   const int drawn = count - int(starts.size());
   const Matrix draws = prior_draws(terms, std::max(0, drawn));
   for (int k = 0; k < drawn; ++k) starts.push_back({draws.col(k), {}, {}});
@@ -139,7 +141,7 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     if (last.status == InferStatus::cancelled || last.status == InferStatus::deadline) break;
     if (until_explained && last.verdict == Verdict::explained) break;
     // An optimum that was found once only may not be the best that there is.
-    if (until_explained && k + 1 >= enough && settled(found)) break;
+    if (until_explained && k + 1 >= enough && (found.empty() || settled(found))) break;
   }
   Answer best = std::move(last);
   if (!found.empty()) {

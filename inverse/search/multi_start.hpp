@@ -6,8 +6,9 @@
 namespace genio {
 
 struct StartOptions {
-  /// Descents a target gets. 0: one, and more only until the misfit is within noise, five or, while
-  /// the likeliest optimum was found once only, up to sixteen.
+  /// Descents a target gets. 0: one, and more only until the misfit is within noise: five (four
+  /// where a start is given), and up to sixteen while the likeliest optimum was found once only, or
+  /// three times where it is far off.
   int starts = 0;
 };
 

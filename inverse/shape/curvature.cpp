@@ -7,9 +7,9 @@
 namespace genio {
 namespace {
 
-constexpr double step = 1e-6;          // longest displacement of a node [m]
-constexpr double unknown_step = 1e-4;  // of an unknown
-constexpr double nothing = 1e-9;       // relative
+constexpr double step = 1e-7;  // longest displacement of a node [m]: contact hardens over 5e-5
+constexpr double unknown_step = 1e-6;  // of an unknown: bones move by it while the shape stays
+constexpr double nothing = 1e-12;      // relative, over such a step
 
 /// K at x, times each column.
 Matrix products(const Model& model, const Positions& x, const Parameters& p, const Matrix& columns,

@@ -41,7 +41,7 @@ ContourFrame kept_frame_of(const Json& json) {
   json.at("frame").get_to(frame.number), json.at("label").get_to(frame.label);
   frame.time_s = kept_number(json.at("time_s"));
   json.at("recording").get_to(frame.recording), json.at("speaker").get_to(frame.speaker);
-  json.at("note").get_to(frame.note), frame.registered = json.value("registered", false);
+  json.at("note").get_to(frame.note), json.at("registered").get_to(frame.registered);
   for (const Json& p : json.at("points"))
     frame.points.push_back({kept_vector_of(p.at(0)), kept_number(p.at(1)),
                             p.at(2).get<std::string>(), kept_vector_of(p.at(3)), p.at(4).get<int>(),

@@ -58,6 +58,8 @@ Frames by_number(Frames frames, const std::string& text, const std::string& path
   const auto [a, b] = ends_of(text);
   const double first = whole(a, text), last = whole(b, text);
   if (last < first) refuse_range(text);
+  int highest = 0;
+  for (const ContourFrame& f : frames) highest = std::max(highest, f.number);
   Frames kept;
   for (ContourFrame& f : frames)
     if (f.number >= first && f.number <= last) kept.push_back(std::move(f));
@@ -68,10 +70,8 @@ Frames by_number(Frames frames, const std::string& text, const std::string& path
     throw InputError(fmt::format("--frames {}: {} has no such frame; its frames are {} to {}", text,
                                  path, low->number, high->number));
   }
-  const auto highest = std::max_element(
-      kept.begin(), kept.end(), [](const auto& p, const auto& q) { return p.number < q.number; });
-  if (b != a && highest->number < last && remark)
-    remark(fmt::format("--frames {}: the last frame there is {}", text, highest->number));
+  if (b != a && highest < last && remark)
+    remark(fmt::format("--frames {}: the last frame there is {}", text, highest));
   return kept;
 }
 

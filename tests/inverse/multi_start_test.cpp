@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "inverse/search/mixed_optima.hpp"
+#include "inverse/shape/acting_posterior.hpp"
 #include "inverse/target/comparison.hpp"
 #include "tests/inverse/pulled_tongue.hpp"
 
@@ -123,12 +124,13 @@ TEST_F(MultiStart, EstimatesHoldMixedOptimaByTheirWeights) {
   const Answer one = infer(m, pulled({{"GGP", 3}}), Prior{}, ws),
                other = infer(m, pulled({{"STY", 3}}), Prior{}, ws);
   Answer light = one, mixed = one;
-  light.weight = 0.97, mixed.weight = 0.6;
+  light.weight = 0.97, mixed.weight = 0.54;
   mix_optima(unknowns, terms, {{0.03, &other}}, light);
   EXPECT_EQ(light.mixed_optima, 1);
   EXPECT_EQ(light.muscles[0].mean, one.muscles[0].mean);
-  mix_optima(unknowns, terms, {{0.4, &other}}, mixed);
+  mix_optima(unknowns, terms, {{0.36, &other}, {0.04, &one}}, mixed);  // the last is too light
   EXPECT_EQ(mixed.mixed_optima, 2);
+  EXPECT_NEAR(mixed.posterior->samples.weights.sum(), 1, 1e-12);
   for (size_t i = 0; i < mixed.muscles.size(); ++i) {
     const Estimate &e = mixed.muscles[i], &a = one.muscles[i], &b = other.muscles[i];
     EXPECT_NEAR(e.acts, 0.6 * a.acts + 0.4 * b.acts, 1e-9) << e.name;

@@ -148,6 +148,10 @@ TEST_F(FrameChoices, ARangeBeyondTheLastFrameIsTold) {
   EXPECT_NE(remarks[0].find("the last frame there is 4"), std::string::npos);
   chosen(timed(4), {.frames = "3-4"});
   EXPECT_TRUE(remarks.empty());
+  auto gap = timed(4);
+  gap[2].number = 20, gap[3].number = 21;
+  chosen(gap, {.frames = "1-3"});
+  EXPECT_TRUE(remarks.empty());
 }
 
 TEST_F(FrameChoices, ATierIsOfATextGrid) {

@@ -106,7 +106,7 @@ class Run {
           add(asked(target, with_effort(Prior{}, width)), c,
               by_prior_[regime.name][fmt::format("prior x {}", width)]);
       if (a.status == InferStatus::converged && regime.most > 0 &&
-          what == all_measurements[c.seed % 3])
+          what == all_measurements[c.seed % all_measurements.size()])
         beyond(pushed(target, a, pushed_by, random), regime, what, Beyond::pushed_surface);
     }
   }
@@ -123,8 +123,11 @@ class Run {
       }
     };
     const auto shape = shape_of();
-    if (!shape) return;
-    const Measurement what = all_measurements[(c.seed + 1) % 3];
+    if (!shape) {
+      ++without_equilibrium_;
+      return;
+    }
+    const Measurement what = all_measurements[(c.seed + 1) % all_measurements.size()];
     beyond(measured_shape(other_->whole(), *shape, what, c.noise, random), regime, what, kind);
   }
 
@@ -157,6 +160,7 @@ class Run {
             {"by_prior", table(by_prior_)},
             {"beyond", beyond},
             {"within_reach_after_all", within_},
+            {"beyond_failed", beyond_failed_},
             {"all", everything},
             {"truths_without_equilibrium", without_equilibrium_},
             {"wall_s_median", median(wall_)}};
@@ -176,7 +180,10 @@ class Run {
   }
   void beyond(const Target& target, const Regime& regime, Measurement what, Beyond kind) {
     const Answer a = asked(target);
-    if (a.status != InferStatus::converged) return;
+    if (a.status != InferStatus::converged) {
+      ++beyond_failed_;
+      return;
+    }
     if (noises_off(a) < out_of_reach) {
       ++within_;
       return;
@@ -205,7 +212,7 @@ class Run {
   std::map<std::string, std::map<std::string, BeyondCount>> beyond_;
   CalibrationCount all_;
   std::vector<double> wall_;
-  int without_equilibrium_ = 0, within_ = 0;
+  int without_equilibrium_ = 0, within_ = 0, beyond_failed_ = 0;
   std::unique_ptr<ErringTongue> other_;
 };
 

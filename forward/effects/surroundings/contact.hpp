@@ -12,9 +12,8 @@ namespace genio {
 /// Penalty contact with a rigid surface.
 ///
 /// E = sum_q A_q k phi(g_q) over points q of the tongue's faces, g_q = distance(x_q) - clearance_q,
-/// phi(g) = 0 for g >= 0. The spring
-/// stiffens over the first 0.05 mm (phi'' rises linearly from 0 to 1) and is linear beyond, so
-/// force and stiffness are continuous. A surface that belongs to an opening jaw moves with it.
+/// phi(g) = 0 for g >= 0. The spring is contact_spring(): it sets in softly and hardens, and force
+/// and stiffness are continuous. A surface that belongs to an opening jaw moves with it.
 /// Parameter: stiffness k [Pa/m], pressure per depth.
 class Contact final : public ContactPotential, public NewtonAid {
  public:

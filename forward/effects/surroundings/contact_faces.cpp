@@ -28,7 +28,7 @@ std::optional<double> rest_clearance(const DistanceField& field, const Vec3& at,
       -(foot.on_rim ? field_error : deepest_overlap))
     return std::nullopt;
   double distance = field.exact().from(foot, at, near);
-  if (distance < field_error) distance = field.value(at);
+  if (distance < contact_gap + field_error) distance = field.value(at);
   return std::min(contact_gap, distance);
 }
 

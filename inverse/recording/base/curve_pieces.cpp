@@ -36,14 +36,17 @@ std::vector<Piece> pieces_of(const std::vector<ContourPoint>& points) {
   return pieces;
 }
 
-/// Without runs of points at one place, as padding with zeros leaves them; how many that were.
+/// Runs of points at one place, as padding leaves them, become one point, and none at the file's
+/// origin; how many points that were.
 size_t drop_padding(std::vector<ContourPoint>& points) {
   const size_t before = points.size();
   std::vector<ContourPoint> kept;
   for (size_t first = 0, end; first < points.size(); first = end) {
     for (end = first + 1; end < points.size() && gap(points[first], points[end]) == 0;) ++end;
-    if (end - first < padding)
-      kept.insert(kept.end(), points.begin() + long(first), points.begin() + long(end));
+    const auto& at = points[first].position;
+    const bool origin = at[0] == 0 && at[2] == 0;
+    const size_t keep = end - first < padding ? end - first : origin ? 0 : 1;
+    kept.insert(kept.end(), points.begin() + long(first), points.begin() + long(first + keep));
   }
   points = std::move(kept);
   return before - points.size();
@@ -111,6 +114,8 @@ ContourFile with_one_curve_a_frame(ContourFile file, const std::string& path) {
   for (ContourFrame& frame : file.frames) {
     const Kept kept = keep_the_curve(frame);
     curves += kept.curve, padded += kept.padding;
+    if (kept.padding > 0)
+      note(frame, fmt::format("{} points that repeat one place left out", kept.padding));
     if (!kept.fault.empty()) {
       if (faulty++ == 0) first_faulty = frame.number, fault = kept.fault;
       note(frame, kept.fault);

@@ -89,9 +89,12 @@ RawContours read(const std::string& path, const ReadOptions& o) {
       if (titled) continue;
     }
     if (!row_names) row_names = titled && fields.size() == layout.columns + 1;
-    if (*row_names && fields.size() == layout.columns + 1) fields.erase(fields.begin());
-    if (fields.size() != layout.columns)
-      lines.fail(other_count(fields.size(), titled ? "header" : "first row", layout.columns, line));
+    if (fields.size() != layout.columns + size_t(*row_names))
+      lines.fail(*row_names ? fmt::format("{} fields; the first row has a name and {} values",
+                                          fields.size(), layout.columns)
+                            : other_count(fields.size(), titled ? "header" : "first row",
+                                          layout.columns, line));
+    if (*row_names) fields.erase(fields.begin());
     auto& row = table.samples.emplace_back();
     auto& rms = table.rms.emplace_back();
     for (const Channel& c : layout.channels) {

@@ -64,11 +64,20 @@ TEST(OneCurveAFrame, TwoTakesInOneAreRefused) {
 TEST(OneCurveAFrame, PaddingIsNoneOfTheCurve) {
   auto points = arc(20, 170);
   const size_t size = points.size();
-  points.resize(size + 5, {.position = {0.02, 0, 0}, .kind = "curve"});
+  points.resize(size + 5, {.position = Vec3::Zero(), .kind = "curve"});
   const auto file = with_one_curve_a_frame(file_of({points}), "a.tsv");
   EXPECT_EQ(file.frames[0].points.size(), size);
   ASSERT_EQ(file.remarks.size(), 1u);
   EXPECT_NE(file.remarks[0].find("as padding: 5"), std::string::npos);
+  // A last point that is repeated is one itself.
+  points = arc(20, 170);
+  points.resize(size + 5, points.back());
+  EXPECT_EQ(with_one_curve_a_frame(file_of({points}), "a.tsv").frames[0].points.size(), size);
+  // A frame of padding says why it has no points.
+  const std::vector<ContourPoint> zeros(9, {.position = Vec3::Zero(), .kind = "curve"});
+  const auto empty = with_one_curve_a_frame(file_of({arc(20, 170), zeros}), "a.tsv");
+  EXPECT_TRUE(empty.frames[1].points.empty());
+  EXPECT_FALSE(empty.frames[1].note.empty());
 }
 
 TEST(OneCurveAFrame, OneOddFrameCostsNoOther) {

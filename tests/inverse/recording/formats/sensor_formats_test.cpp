@@ -80,8 +80,9 @@ TEST_F(Formats, OneRowOfAg501TextWithAFieldTooManyIsNamed) {
   EXPECT_EQ(
       read_raw(write("r.txt", header + "1\t" + row + "\n2\t" + row + "\n"), o).file.frames.size(),
       2u);
-  EXPECT_THROW(read_raw(write("e.txt", header + row + "\n" + row + "\t5\n" + row + "\n"), o),
-               InputError);
+  for (const std::string& text :
+       {row + "\n" + row + "\t5\n" + row + "\n", row + "\t5\n" + row + "\n" + row + "\n"})
+    EXPECT_THROW(read_raw(write("e.txt", header + text), o), InputError);
 }
 
 TEST_F(Formats, EmaSsff) {
