@@ -9,7 +9,7 @@
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "inverse/recording/frame_target.hpp"
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 #include "inverse/search/multi_start.hpp"
 
 namespace genio::bench {

@@ -13,7 +13,7 @@
 #include "forward/model/hypothesis.hpp"
 #include "inverse/recording/contour_file.hpp"
 #include "inverse/recording/frame_target.hpp"
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 
 namespace genio {
 namespace {

@@ -50,8 +50,7 @@ ContourFrame registered(const Model& model, const ContourFrame& frame,
   }
   points = std::vector<ContourPoint>(points.begin() + long(first), points.begin() + long(last));
   if (points.size() < size)
-    result.note += fmt::format("{}{} end points inside bone left out",
-                               result.note.empty() ? "" : "; ", size - points.size());
+    result.add_note(fmt::format("{} end points inside bone left out", size - points.size()));
   return result;
 }
 

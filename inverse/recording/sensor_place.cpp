@@ -173,12 +173,10 @@ std::string length_text(double length) {
 
 /// " (are its units cm? ...)" where other units would explain a distance; else empty.
 std::string other_units(const std::string& units, double seen, double modelled) {
-  static const std::map<std::string, double> metres = {
-      {"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}};
-  const auto own = metres.find(units);
-  if (own == metres.end()) return {};
-  for (const auto& [unit, size] : metres)
-    if (const double ratio = size / own->second * seen / modelled;
+  const auto own = metres_a_unit(units);
+  if (!own) return {};
+  for (const char* unit : {"cm", "m", "mm", "um"})
+    if (const double ratio = *metres_a_unit(unit) / *own * seen / modelled;
         unit != units && ratio > 0.5 && ratio < 2)
       return fmt::format(" (are its units {}? --units says so)", unit);
   return {};

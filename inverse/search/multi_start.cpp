@@ -53,11 +53,9 @@ bool settled(const std::vector<Answer>& found) {
 
 /// Where to start from when nothing better is known, in the order to try.
 std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, const Prior& prior,
-                                  TongueState& tongue, const InferOptions& options, int count) {
+                                  const std::vector<Unknown>& unknowns, const PriorTerms& terms,
+                                  TongueState& tongue, bool bilateral, int count) {
   std::vector<Atlas::Entry> starts;
-  const bool bilateral = options.bilateral.value_or(target.midsagittal());
-  const auto unknowns = unknowns_of(model, prior, bilateral);
-  const PriorTerms terms = prior_terms(prior, unknowns);
   const Atlas& atlas = tongue.atlas.get(model, prior, bilateral, tongue.workspace);
   const Comparison comparison(model, target);
   const auto near = nearest(atlas, comparison, unknowns, terms);
@@ -107,6 +105,9 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
   const bool given = options.start.size() > 0;
   const int most = until_explained ? longest_patience : start_options.starts;
   const int enough = given ? warm_patience : patience;
+  const bool bilateral = options.bilateral.value_or(target.midsagittal());
+  const auto unknowns = unknowns_of(model, prior, bilateral);
+  const PriorTerms terms = prior_terms(prior, unknowns);
   std::vector<Atlas::Entry> starts;
   if (given)
     starts.push_back(
@@ -118,7 +119,8 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
   for (int k = 0; k < most; ++k) {
     if (size_t(k) == starts.size()) {  // not before they are needed: the nearest, then all others
       const bool first = k == int(given);
-      auto more = guesses(model, target, prior, tongue, options, first ? 1 : most - int(given));
+      auto more = guesses(model, target, prior, unknowns, terms, tongue, bilateral,
+                          first ? 1 : most - int(given));
       starts.insert(starts.end(), more.begin() + (first ? 0 : 1), more.end());
     }
     const Atlas::Entry& start = starts[size_t(k)];
@@ -143,12 +145,7 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     // An optimum that was found once only may not be the best that there is.
     if (until_explained && k + 1 >= enough && (found.empty() || settled(found))) break;
   }
-  Answer best = std::move(last);
-  if (!found.empty()) {
-    const auto unknowns =
-        unknowns_of(model, prior, options.bilateral.value_or(target.midsagittal()));
-    best = weighed(std::move(found), unknowns, prior_terms(prior, unknowns));
-  }
+  Answer best = found.empty() ? std::move(last) : weighed(std::move(found), unknowns, terms);
   best.wall_s = watch.seconds(), best.iterations = iterations;
   best.factorizations = factorizations, best.forward_solves = solves;
   return best;

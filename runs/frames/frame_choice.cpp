@@ -58,18 +58,16 @@ Frames by_number(Frames frames, const std::string& text, const std::string& path
   const auto [a, b] = ends_of(text);
   const double first = whole(a, text), last = whole(b, text);
   if (last < first) refuse_range(text);
-  int highest = 0;
-  for (const ContourFrame& f : frames) highest = std::max(highest, f.number);
+  const auto ends =
+      std::minmax_element(frames.begin(), frames.end(),
+                          [](const auto& p, const auto& q) { return p.number < q.number; });
+  const int lowest = ends.first->number, highest = ends.second->number;
   Frames kept;
   for (ContourFrame& f : frames)
     if (f.number >= first && f.number <= last) kept.push_back(std::move(f));
-  if (kept.empty()) {
-    const auto [low, high] =
-        std::minmax_element(frames.begin(), frames.end(),
-                            [](const auto& p, const auto& q) { return p.number < q.number; });
+  if (kept.empty())
     throw InputError(fmt::format("--frames {}: {} has no such frame; its frames are {} to {}", text,
-                                 path, low->number, high->number));
-  }
+                                 path, lowest, highest));
   if (b != a && highest < last && remark)
     remark(fmt::format("--frames {}: the last frame there is {}", text, highest));
   return kept;

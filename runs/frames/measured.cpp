@@ -10,7 +10,7 @@
 #include "inverse/recording/base/file_axes.hpp"
 #include "inverse/recording/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
-#include "inverse/recording/scan_session.hpp"
+#include "inverse/recording/session/scan_session.hpp"
 #include "runs/frames/unused_options.hpp"
 
 namespace genio {

@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 #include "runs/results/answer_view.hpp"
 
 namespace genio {

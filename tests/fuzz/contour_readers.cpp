@@ -3,7 +3,7 @@
 #include "inverse/prior/prior_file.hpp"
 #include "inverse/recording/contour_file.hpp"
 #include "inverse/recording/format_list.hpp"
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 #include "inverse/recording/textgrid.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 

@@ -16,7 +16,8 @@ namespace {
 constexpr size_t most_kept = 8;           // some 4 MB each
 constexpr double deepest_overlap = 2e-3;  // at rest [m]
 constexpr double another_side = 10e-3;    // so near its side of the bone is asked for [m]
-constexpr double field_error = 0.3e-3;    // of the spline at an edge [m]
+static_assert(contact_gap < DistanceField::touch, "what touches is asked for");
+constexpr double field_error = 0.3e-3;  // of the spline at an edge [m]
 
 /// The distance that a point keeps [m], below 0 where it overlaps at rest; none where it lies on
 /// another side of the bone, behind the plane of the surface's nearest place. `near`: as for

@@ -11,7 +11,6 @@ namespace {
 constexpr double far_away = 0.05;  // [m]; also the largest distance kept
 constexpr double band = 0.008;     // samples farther away than this need no exact distance [m]
 constexpr int group = 6;           // samples along the side of a block that may be skipped whole
-constexpr double touch = 4e-4;     // what is nearer is asked for exactly [m]
 constexpr int refinement = 4;
 constexpr int cells = 8;         // along the side of a brick
 constexpr int kept = cells + 3;  // coefficients that its cells reach

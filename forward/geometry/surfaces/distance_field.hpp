@@ -22,6 +22,8 @@ namespace genio {
 /// over about the fine spacing. May be asked from several threads.
 class DistanceField {
  public:
+  static constexpr double touch = 4e-4;  ///< what is nearer is asked for exactly [m]
+
   /// Samples within the box, positive on the side that the surface's normals point to.
   DistanceField(const TriangleSurface& surface, const Vec3& low, const Vec3& high, double spacing);
   ~DistanceField();
@@ -30,7 +32,7 @@ class DistanceField {
   /// outside the box a large positive constant [m].
   double value(const Vec3& p) const;
   DistanceSample sample(const Vec3& p) const;
-  /// The same where it may be less than 0.4 mm; elsewhere perhaps only some larger number [m].
+  /// The same where it may be less than `touch`; elsewhere perhaps only some larger number [m].
   double value_if_touching(const Vec3& p) const;
   /// By the coarse grid alone [m].
   double rough(const Vec3& p) const;

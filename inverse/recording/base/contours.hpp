@@ -29,6 +29,8 @@ struct ContourFrame {
   std::string note;                ///< why it has no points, or which were left out
   std::vector<ContourPoint> points;
   bool registered = false;  ///< it is another speaker's, laid beside the model
+
+  void add_note(const std::string& text) { note += (note.empty() ? "" : "; ") + text; }
 };
 
 /// What one assumes when nobody says [m]: of points that come from anywhere, of ultrasound.

@@ -101,10 +101,6 @@ Kept keep_the_curve(ContourFrame& frame) {
   return kept;
 }
 
-void note(ContourFrame& frame, const std::string& text) {
-  frame.note += (frame.note.empty() ? "" : "; ") + text;
-}
-
 }  // namespace
 
 ContourFile with_one_curve_a_frame(ContourFile file, const std::string& path) {
@@ -115,14 +111,14 @@ ContourFile with_one_curve_a_frame(ContourFile file, const std::string& path) {
     const Kept kept = keep_the_curve(frame);
     curves += kept.curve, padded += kept.padding;
     if (kept.padding > 0)
-      note(frame, fmt::format("{} points that repeat one place left out", kept.padding));
+      frame.add_note(fmt::format("{} points that repeat one place left out", kept.padding));
     if (!kept.fault.empty()) {
       if (faulty++ == 0) first_faulty = frame.number, fault = kept.fault;
-      note(frame, kept.fault);
+      frame.add_note(kept.fault);
     } else if (kept.out > 0) {
       if (frames++ == 0) first = frame.number;
       out += kept.out;
-      note(frame, fmt::format("{} points far from their neighbours left out", kept.out));
+      frame.add_note(fmt::format("{} points far from their neighbours left out", kept.out));
     }
   }
   if (double(faulty) > most_faulty * double(curves))

@@ -53,10 +53,7 @@ std::string stray_point(const ContourFile& file) {
 }
 
 double metres(const std::string& unit, const ReadOptions& o, const std::string& path) {
-  if (unit == "mm") return 1e-3;
-  if (unit == "cm") return 1e-2;
-  if (unit == "m") return 1;
-  if (unit == "um") return 1e-6;
+  if (const auto size = metres_a_unit(unit)) return *size;
   if (unit == "px") {
     if (!(o.mm_per_px > 0) || !std::isfinite(o.mm_per_px))
       throw InputError(path + ": is in pixels; give their size with --mm-per-px");
@@ -159,6 +156,14 @@ void check_choice(const std::string& value, const char* option, const char* a, c
 }
 
 }  // namespace
+
+std::optional<double> metres_a_unit(const std::string& unit) {
+  if (unit == "mm") return 1e-3;
+  if (unit == "cm") return 1e-2;
+  if (unit == "m") return 1;
+  if (unit == "um") return 1e-6;
+  return {};
+}
 
 ContourFile in_metres(ContourFile file, const FileAxes& axes, const std::string& path,
                       const ReadOptions& o) {

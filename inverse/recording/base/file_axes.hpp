@@ -2,6 +2,8 @@
 // From a file's units and axes to metres with x backwards and z up.
 
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "inverse/recording/base/contours.hpp"
 
@@ -9,6 +11,9 @@ namespace genio {
 
 /// A coordinate that the file does not give, as that across a midsagittal plane.
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// Metres a unit of length ("mm", "cm", "m" or "um"); none for others.
+std::optional<double> metres_a_unit(const std::string& unit);
 
 /// What a format says of its axes; empty where it says nothing.
 struct FileAxes {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "forward/model/build_model.hpp"
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 #include "inverse/target/tongue_line.hpp"
 #include "tests/forward/small_model.hpp"
 

@@ -10,7 +10,7 @@
 #include "bench/experiments/recordings/synthetic_session.hpp"
 #include "forward/model/build_model.hpp"
 #include "inverse/recording/registration/head_places.hpp"
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

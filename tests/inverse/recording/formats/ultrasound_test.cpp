@@ -4,7 +4,7 @@
 
 #include "forward/model/build_model.hpp"
 #include "inverse/recording/frame_target.hpp"
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 #include "inverse/shape/infer.hpp"
 #include "tests/forward/small_model.hpp"
 

@@ -1,13 +1,13 @@
 // The axes of a device are found once for all its files, or both readings are named.
 
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 
 #include <gtest/gtest.h>
 
 #include "forward/model/build_model.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "inverse/recording/frame_target.hpp"
-#include "inverse/recording/session_faults.hpp"
+#include "inverse/recording/session/session_faults.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {

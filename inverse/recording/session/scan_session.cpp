@@ -1,4 +1,4 @@
-#include "inverse/recording/scan_session.hpp"
+#include "inverse/recording/session/scan_session.hpp"
 
 #include <fmt/format.h>
 
@@ -81,9 +81,13 @@ bool is_the_palate(const Scan& scan) {
   return 5 * on > 4 * std::ptrdiff_t(scan.tongue.size());
 }
 
+/// What a pose turns the axes by beside their reading.
+Eigen::AngleAxisd turn_beside(const ScanPose& pose, const AxesReading& reading) {
+  return Eigen::AngleAxisd(Mat3(pose.turn * rotation_of(reading).transpose()));
+}
+
 void set_turns(Judgement& j, const ScanPose& pose, const AxesReading& reading, const Vec3& middle) {
-  const Mat3 rest = pose.turn * rotation_of(reading).transpose();
-  const Eigen::AngleAxisd turn(rest);
+  const Eigen::AngleAxisd turn = turn_beside(pose, reading);
   const Vec3 angles = turn.angle() * turn.axis();
   j.tilt = -angles[1];
   const Vec3 shift = pose(middle) - rotation_of(reading) * middle;
@@ -140,8 +144,7 @@ AlignedScan align_scan(const Model& model, SessionFile target,
         "its points lie on the palate's surface: was the palate given as the tongue?");
   const AxesReading reading = nearest_reading(best.pose, options);
   set_turns(judgement, best.pose, reading, middle);
-  const double turn =
-      Eigen::AngleAxisd(Mat3(best.pose.turn * rotation_of(reading).transpose())).angle();
+  const double turn = turn_beside(best.pose, reading).angle();
   if (!options.axes.empty() && turn > most_tilt)
     judgement.faults.push_back(fmt::format(
         "it is turned by {:.0f} degrees against the axes that were said, and no head is by more "

@@ -5,7 +5,7 @@
 
 #include "inverse/recording/base/axes_reading.hpp"
 #include "inverse/recording/judgement.hpp"
-#include "inverse/recording/session_file.hpp"
+#include "inverse/recording/session/session_file.hpp"
 
 namespace genio {
 

@@ -1,4 +1,4 @@
-#include "inverse/recording/session_file.hpp"
+#include "inverse/recording/session/session_file.hpp"
 
 #include "inverse/recording/base/curve_pieces.hpp"
 

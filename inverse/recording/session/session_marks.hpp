@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 
 namespace genio {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What makes a recording doubtful beside its registration. Not for other rooms.
 
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 
 namespace genio {
 

@@ -1,7 +1,7 @@
 #pragma once
 // A scan and, where there is one, the palate in the same frame: laid beside the model in 3D.
 
-#include "inverse/recording/session.hpp"
+#include "inverse/recording/session/session.hpp"
 
 namespace genio {
 

@@ -1,4 +1,4 @@
-#include "inverse/recording/scan_session.hpp"
+#include "inverse/recording/session/scan_session.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/recording/session_faults.hpp"
+#include "inverse/recording/session/session_faults.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include "forward/base/median.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/sensor_place.hpp"
-#include "inverse/recording/session_marks.hpp"
+#include "inverse/recording/session/session_marks.hpp"
 
 namespace genio {
 namespace {

@@ -1,4 +1,4 @@
-#include "inverse/recording/session_marks.hpp"
+#include "inverse/recording/session/session_marks.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
