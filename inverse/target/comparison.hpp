@@ -32,8 +32,6 @@ struct ModelError {
     other.efficacy_sd = 0.8, other.left_of_another = 0.05;
     return other;
   }
-  // For a movement, whose posterior is a Gaussian, set by `genio bench blind`.
-  double part = 0.33;  ///< with `length`
 };
 
 /// Noise-weighted residuals and their derivatives.
