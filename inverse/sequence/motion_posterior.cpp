@@ -99,7 +99,7 @@ std::vector<ActingPosterior> motion_posterior(MotionProblem& problem, const Vect
   auto here = expansion(problem, u, error);
   if (!here) return {};
   std::vector<ActingPosterior> result = at_knots(problem, *here, error);
-  for (int k = 0; k < most_turns; ++k) {
+  for (int k = 0; k < 1; ++k) {
     const Vector mean = mean_of(result, here->u);
     if (!problem.value(mean)) break;
     if (nonlinearity(here->residuals, here->jacobian, mean - here->u, problem.values()) < straight)

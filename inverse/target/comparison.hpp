@@ -16,7 +16,7 @@ namespace genio {
 struct ModelError {
   /// Of what a fit cannot absorb, for the verdict: of each place's own way, alike over a short
   /// length. What meshes, fibres and tissue laws do was measured so, see docs/inversion-method.md.
-  double left = 0.06, left_length = 4e-3;
+  double left = 0.08, left_length = 4e-3;
   double left_of_another = 0;  ///< and of the line's way, with `length`: another speaker's anatomy
   double length = 0.012;       ///< over which that is alike [m]
   double least = 1e-4;         ///< of any field [m]
