@@ -38,23 +38,44 @@ std::optional<TcpAddress> tcp_address(const std::string& url) {
   return TcpAddress{m[1].length() > 0 ? m[1].str() : "127.0.0.1", std::to_string(port)};
 }
 
+/// True where the socket becomes ready for `events` in time.
+bool ready(int fd, short events, int longest_ms) {
+  pollfd polled{fd, events, 0};
+  return poll(&polled, 1, longest_ms) == 1 && (polled.revents & events);
+}
+
+/// True where a hub greets back, as in lcm_tcpq.c: LCM itself would wait for that without end.
+bool greets(int fd, int longest_ms) {
+  constexpr unsigned char greeting[] = {0x28, 0x76, 0x17, 0xfb, 0, 0, 1, 0};
+  constexpr unsigned char expected[] = {0x28, 0x76, 0x17, 0xfa};
+  if (send(fd, greeting, sizeof greeting, MSG_NOSIGNAL) != sizeof greeting) return false;
+  unsigned char answer[8];
+  size_t got = 0;
+  while (got < sizeof answer && ready(fd, POLLIN, longest_ms)) {
+    const auto n = recv(fd, answer + got, sizeof answer - got, 0);
+    if (n <= 0) return false;
+    got += size_t(n);
+  }
+  return got == sizeof answer && std::equal(std::begin(expected), std::end(expected), answer);
+}
+
 bool answers(const addrinfo& address) {
   constexpr int longest_ms = 1000;
   const int fd = socket(address.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd < 0) return false;
   bool good = ::connect(fd, address.ai_addr, address.ai_addrlen) == 0;
   if (!good && errno == EINPROGRESS) {
-    pollfd polled{fd, POLLOUT, 0};
     int error = 0;
     socklen_t size = sizeof error;
-    good = poll(&polled, 1, longest_ms) == 1 &&
+    good = ready(fd, POLLOUT, longest_ms) &&
            getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
   }
+  good = good && greets(fd, longest_ms);
   close(fd);
   return good;
 }
 
-/// True where somebody listens there.
+/// True where a hub listens there.
 bool answers(const TcpAddress& address) {
   addrinfo wanted{}, *found = nullptr;
   wanted.ai_family = AF_INET;  // as LCM

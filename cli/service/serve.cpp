@@ -31,7 +31,7 @@ Runner add_serve(Options& options) {
     const Model m = read_model(*model);
     ServiceOptions service;
     service.url = choose_url(*url);
-    service.queue = *queue;
+    service.limits.waiting = *queue;
     service.log = print_line;
     std::unique_ptr<Hub> hub;
     if (const uint16_t port = local_tcpq_port(service.url)) {

@@ -35,7 +35,7 @@ std::vector<Field> fields_of(const std::filesystem::path& file) {
 std::string layout_of(const std::vector<Field>& fields) {
   const std::map<std::string, char> scalars = {
       {"int64_t", 'l'}, {"int32_t", 'i'}, {"int8_t", 'b'}, {"double", 'd'}, {"string", 's'}};
-  const std::map<std::string, char> arrays = {{"double", 'D'}, {"string", 'S'}};
+  const std::map<std::string, char> arrays = {{"double", 'D'}, {"int32_t", 'I'}, {"string", 'S'}};
   const auto counts = [&](const std::string& name) {
     return std::any_of(fields.begin(), fields.end(),
                        [&](const Field& f) { return f.count == name; });
