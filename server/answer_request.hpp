@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "forward/model/model.hpp"
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 namespace genio {
 

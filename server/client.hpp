@@ -6,7 +6,7 @@
 #include <string>
 
 #include "server/link.hpp"
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 namespace genio {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 namespace genio {
 

@@ -90,7 +90,8 @@ void Dispatcher::accept(shape_request_t request, size_t bytes, int64_t now) {
                   fmt::format("the queue is full ({} requests wait); ask again in {:.0f} s",
                               waiting_.size(), seconds_until_free()),
                   seconds_until_free());
-  Entry entry{.digest = digest_of(request), .clients = {request.client}, .bytes = bytes};
+  Entry entry;
+  entry.digest = digest_of(request), entry.clients = {request.client}, entry.bytes = bytes;
   if (request.deadline_s > 0)
     entry.deadline = now + int64_t(std::min(1e6 * request.deadline_s, 1e15));
   const std::string id = request.id;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 namespace genio {
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <regex>
 
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 namespace genio {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 #include <chrono>
 
