@@ -107,6 +107,9 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
   const Stopwatch watch;
   const TongueLine& line = worker.state().line;
   try {
+    if (!request.model.empty() && request.model != model.name)
+      throw InputError(
+          fmt::format("model: '{}' is asked for; this server has '{}'", request.model, model.name));
     const double noise =
         request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm : point_noise;
     const Target target = make_target(model, frame_of(request), noise);

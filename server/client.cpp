@@ -24,8 +24,8 @@ std::string unique_name() {
 Client::Client(const std::string& url, std::string name)
     : link_(url), name_(name.empty() ? unique_name() : std::move(name)) {
   if (!usable_client(name_))
-    throw InputError(fmt::format(
-        "client '{}': expected 1 to 40 letters, digits, '_' or '-'", name_));
+    throw InputError(
+        fmt::format("client '{}': expected 1 to 40 letters, digits, '_' or '-'", name_));
   link_.subscribe("GENIO_REPLY." + name_,
                   [this](const std::string&, const void* data, size_t size) {
                     std::string why;
@@ -65,6 +65,11 @@ std::optional<command_reply_t> Client::request(
     link_.wait(20);
   }
   progress_ = {};
+  if (reply_) {
+    ack_t ack{};
+    ack.utime = now_us(), ack.id = reply_->id, ack.client = name_;
+    link_.publish("GENIO_ACK", encode(ack));
+  }
   return reply_;
 }
 

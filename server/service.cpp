@@ -5,18 +5,22 @@
 #include <unistd.h>
 
 #include <deque>
+#include <memory>
+#include <set>
 #include <thread>
 
 #include "forward/base/elapsed.hpp"
 #include "server/answer_request.hpp"
 #include "server/dispatch/dispatcher.hpp"
+#include "server/journalled.hpp"
 #include "server/link.hpp"
 
 namespace genio {
 namespace {
 
-constexpr double status_period = 1;  // [s]
-constexpr int turn_ms = 20;          // how exactly deadlines hold
+constexpr double status_period = 1;                   // [s]
+constexpr double prune_period = 60, prune_again = 1;  // [s]
+constexpr int turn_ms = 20;                           // how exactly deadlines hold
 
 /// Ends a thread's waiting for messages from another thread.
 class WakeUp {
@@ -68,11 +72,31 @@ void publish(Link& link, std::deque<OutgoingMessage>& messages) {
     messages.pop_front();
 }
 
+/// True where there is more to prune. What cannot be pruned now is pruned later.
+bool prune(Journal& journal, const ServiceOptions& options) {
+  try {
+    return journal.prune(now_us()).more;
+  } catch (const JournalError& e) {
+    if (options.log) options.log(std::string("journal: ") + e.what());
+    return false;
+  }
+}
+
 }  // namespace
 
 void serve(const Model& model, const ServiceOptions& options, const std::atomic<bool>& stop) {
   const WakeUp wake;
-  Dispatcher dispatcher(options.limits, [&] { wake.ring(); });
+  std::unique_ptr<Journal> journal;
+  JournalLookup lookup;
+  if (!options.journal.empty()) {
+    journal = std::make_unique<Journal>(options.journal);
+    lookup.find = [&](const std::string& id) { return known_request(*journal, id); };
+  }
+  Dispatcher dispatcher(
+      options.limits, [&] { wake.ring(); }, lookup);
+  if (journal)
+    for (const JournalEntry& entry : journal->unanswered())
+      dispatcher.resume(accepted_record(entry), entry.tries);
   RequestWorker worker(model);
   Link link(options.url);
   bool status_asked = true;
@@ -82,15 +106,23 @@ void serve(const Model& model, const ServiceOptions& options, const std::atomic<
   link.subscribe("GENIO_CANCEL", [&](const std::string&, const void* data, size_t size) {
     dispatcher.receive_cancel(data, size);
   });
+  link.subscribe("GENIO_ACK", [&](const std::string&, const void* data, size_t size) {
+    dispatcher.receive_ack(data, size);
+  });
   link.subscribe("GENIO_ASK_STATUS",
                  [&](const std::string&, const void*, size_t) { status_asked = true; });
   std::thread computing([&] { compute(model, options, worker, dispatcher); });
   const Stopwatch uptime;
-  double next_status = 0;
+  double next_status = 0, next_prune = prune_period;
   std::deque<OutgoingMessage> leaving;
   const auto collect = [&] {
-    for (OutgoingMessage& message : dispatcher.take_outgoing())
-      leaving.push_back(std::move(message));
+    Outgoing outgoing = dispatcher.take_outgoing();
+    std::set<std::string> unkept;
+    if (journal && !outgoing.records.empty())
+      for (const Unkept& u : write_records(*journal, outgoing.records, now_us()))
+        if (unkept.insert(u.id).second) dispatcher.drop(u.id, u.reason);
+    for (OutgoingMessage& message : outgoing.messages)
+      if (!unkept.contains(message.acknowledges)) leaving.push_back(std::move(message));
   };
   while (!stop) {
     const bool up = link.wait(turn_ms, wake.descriptor());
@@ -102,6 +134,9 @@ void serve(const Model& model, const ServiceOptions& options, const std::atomic<
       leaving.push_back(status_message(dispatcher, model, uptime.seconds()));
     }
     if (up) publish(link, leaving);
+    if (journal && uptime.seconds() >= next_prune) {
+      next_prune = uptime.seconds() + (prune(*journal, options) ? prune_again : prune_period);
+    }
   }
   dispatcher.close();
   computing.join();

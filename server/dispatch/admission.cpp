@@ -46,6 +46,8 @@ std::string fault_of(const shape_request_t& r) {
   if (r.id.empty() || r.id.size() > longest_id || !printable(r.id))
     return fmt::format("id: expected 1 to {} characters, none of them a control character",
                        longest_id);
+  if (r.model.size() > longest_id)
+    return fmt::format("model: expected at most {} characters", longest_id);
   for (size_t k = 0; k < r.kind.size(); ++k)
     if (r.kind[k].size() > longest_kind)
       return fmt::format("point {}: kind has {} characters; expected at most {}", k + 1,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "server/dispatch/limits.hpp"
+#include "server/dispatch/record.hpp"
 #include "server/dispatch/replies.hpp"
 
 namespace genio {
@@ -21,6 +22,18 @@ struct Assignment {
   double deadline_s = 0;  ///< that are left, from now on; 0: no deadline
 };
 
+/// What happened since it was last taken: records to be kept before the messages are published.
+struct Outgoing {
+  std::vector<Record> records;
+  std::vector<OutgoingMessage> messages;
+};
+
+/// What a journal that keeps the records knows; none of both where there is none.
+struct JournalLookup {
+  std::function<std::optional<KnownRequest>(const std::string& id)> find = {};
+  explicit operator bool() const { return bool(find); }
+};
+
 /// Requests in the order of their arrival, each answered once. A repeated id with the same content
 /// gets the reply of the first, whoever sends it; with other content it is refused. Only the client
 /// that asked first may withdraw a request. Deadlines count from the arrival, time in the queue
@@ -29,7 +42,8 @@ struct Assignment {
 class Dispatcher {
  public:
   /// `wake` is called, from any thread, when there is something to publish.
-  explicit Dispatcher(const DispatchLimits& limits, std::function<void()> wake = {});
+  explicit Dispatcher(const DispatchLimits& limits, std::function<void()> wake = {},
+                      JournalLookup journal = {});
 
   // The thread of the messages:
 
@@ -39,16 +53,23 @@ class Dispatcher {
   /// A message on the channel of cancellations. A waiting request is answered at once, a running
   /// one by the thread that computes. Who may not cancel, or names no such request, is told.
   void receive_cancel(const void* data, size_t size);
+  /// A message on the channel of acknowledgements.
+  void receive_ack(const void* data, size_t size);
+  /// Takes up what an earlier process accepted and did not answer. `tries`: computations that
+  /// ended with the process; after two it is answered as failed.
+  void resume(const AcceptedRecord& record, int tries);
+  /// Refuses what was accepted and could not be kept.
+  void drop(const std::string& id, const std::string& reason);
   /// Answers what has passed its deadline.
   void pass_deadlines(int64_t now);
-  /// What is to be published; each message is given once.
-  std::vector<OutgoingMessage> take_outgoing();
+  /// Each record and message is given once.
+  Outgoing take_outgoing();
   /// The counts of a status message.
   server_status_t counts() const;
   /// Lets the computing thread end after the request that it works on, which counts as withdrawn.
   void close();
-  /// Answers those that still wait: nobody will work on them. Only after the computing thread
-  /// ended.
+  /// Answers those that still wait, unless a journal keeps them: nobody will work on them. Only
+  /// after the computing thread ended.
   void refuse_waiting();
 
   // The computing thread:
@@ -78,11 +99,13 @@ class Dispatcher {
   };
 
   // All with the mutex held.
-  void send(const std::string& channel, std::vector<uint8_t> bytes);
+  void send(OutgoingMessage message);
+  void keep(Record record);
   void reply_to(const std::string& client, command_reply_t reply);
   void refuse(const std::string& client, const std::string& id, const std::string& reason,
               double retry_after_s = 0);
-  void accept(shape_request_t request, size_t bytes, int64_t now);
+  void accept(shape_request_t request, std::vector<uint8_t> bytes, int64_t now);
+  void enqueue(shape_request_t request, const AcceptedRecord& record);
   void ask_again(const shape_request_t& request, Entry& entry);
   void answer(Entry& entry, command_reply_t reply);
   void forget_oldest();
@@ -91,6 +114,7 @@ class Dispatcher {
 
   const DispatchLimits limits_;
   const std::function<void()> wake_;
+  const JournalLookup journal_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;       // something waits, or it was closed
   std::map<std::string, Entry> entries_;  // by id
@@ -99,7 +123,7 @@ class Dispatcher {
   std::string running_;                   // id; empty: none
   size_t waiting_bytes_ = 0, answered_bytes_ = 0;
   double usual_seconds_ = 1;  // of a request
-  std::vector<OutgoingMessage> outgoing_;
+  Outgoing outgoing_;
   bool closed_ = false;
   int64_t received_ = 0, replied_ = 0, refused_ = 0;
 };

@@ -12,6 +12,7 @@ namespace genio {
 struct OutgoingMessage {
   std::string channel;
   std::vector<uint8_t> bytes;
+  std::string acknowledges = {};  ///< id of the request that it says was taken
 };
 
 /// A reply without an answer. `retry_after_s`: when to ask again; 0: never the same.

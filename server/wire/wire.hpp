@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "genio/ack_t.hpp"
 #include "genio/cancel_t.hpp"
 #include "genio/command_reply_t.hpp"
 #include "genio/progress_t.hpp"
@@ -25,7 +26,7 @@ template <class T>
 struct WireLayout;
 template <>
 struct WireLayout<shape_request_t> {
-  static constexpr const char* fields = "lssnDDDDSddbi";
+  static constexpr const char* fields = "lsssnDDDDSddbi";
 };
 template <>
 struct WireLayout<command_reply_t> {
@@ -37,6 +38,10 @@ struct WireLayout<progress_t> {
 };
 template <>
 struct WireLayout<cancel_t> {
+  static constexpr const char* fields = "lss";
+};
+template <>
+struct WireLayout<ack_t> {
   static constexpr const char* fields = "lss";
 };
 template <>

@@ -60,6 +60,7 @@ const std::map<std::string, std::string> layouts = {
     {"command_reply_t", WireLayout<command_reply_t>::fields},
     {"progress_t", WireLayout<progress_t>::fields},
     {"cancel_t", WireLayout<cancel_t>::fields},
+    {"ack_t", WireLayout<ack_t>::fields},
     {"server_status_t", WireLayout<server_status_t>::fields}};
 
 TEST(WireLayouts, EachIsThatOfItsLcmFile) {

@@ -37,7 +37,7 @@ class Dispatch : public testing::Test {
   std::vector<Reply> replies() {
     std::vector<Reply> result;
     const std::string prefix = "GENIO_REPLY.";
-    for (const OutgoingMessage& m : dispatcher.take_outgoing()) {
+    for (const OutgoingMessage& m : dispatcher.take_outgoing().messages) {
       if (!m.channel.starts_with(prefix)) continue;
       std::string why;
       const auto reply = decode_checked<command_reply_t>(m.bytes.data(), m.bytes.size(), why);
@@ -226,7 +226,7 @@ TEST_F(Dispatch, AClientOfAnEarlierVersionIsToldSo) {
   }
   dispatcher.receive_request(old.data(), old.size(), now_us());
   int told = 0;
-  for (const OutgoingMessage& m : dispatcher.take_outgoing()) {
+  for (const OutgoingMessage& m : dispatcher.take_outgoing().messages) {
     EXPECT_EQ(m.channel, "GENIO_REPLY.old-client");
     const std::string bytes(m.bytes.begin(), m.bytes.end());
     told += bytes.find("newer than the client's") != std::string::npos &&
@@ -265,7 +265,7 @@ TEST_F(Dispatch, ProgressGoesToThoseWhoAsked) {
   ask("a", "one"), ask("a", "two"), dispatcher.next();
   dispatcher.take_outgoing();
   dispatcher.report_progress("a", 3, 1e-3);
-  const auto sent = dispatcher.take_outgoing();
+  const auto sent = dispatcher.take_outgoing().messages;
   ASSERT_EQ(sent.size(), 2u);
   EXPECT_EQ(sent[0].channel, "GENIO_PROGRESS.one");
   std::string why;

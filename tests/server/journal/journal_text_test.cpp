@@ -98,7 +98,7 @@ TEST_F(JournalExport, WritesEachMessageAsItIsOrAsHexWithANote) {
   reply.id = request.id, reply.status = "converged", reply.muscle_count = 1;
   reply.muscle = {"GGP"};
   for (auto* of : {&reply.force_N, &reply.max_force_N, &reply.sd_N, &reply.low_N, &reply.high_N,
-                   &reply.acts, &reply.median_N, &reply.mean_N})
+                   &reply.acts, &reply.median_N, &reply.mean_N, &reply.information_bits})
     *of = {2.5};
   JournalEntry good = test::entry_of(1), odd = test::entry_of(2, 4);
   good.id = request.id, good.request = encode(request);
