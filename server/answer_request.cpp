@@ -120,7 +120,7 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
     if (hooks.improved)
       options.improved = [&](const Answer& so_far) {
         command_reply_t best = reply_without_answer(request.id, "deadline", "");
-        best.wall_s = watch.seconds();
+        best.wall_s = watch.seconds(), best.verdict = to_string(so_far.verdict);
         fill(line, so_far, best);
         hooks.improved(std::move(best));
       };

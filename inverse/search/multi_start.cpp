@@ -142,7 +142,10 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
                                                            here);
     iterations += last.iterations;
     factorizations += last.factorizations, solves += last.forward_solves;
-    if (last.status == InferStatus::converged) found.push_back(last);
+    if (last.status == InferStatus::converged) {
+      found.push_back(last);
+      if (options.improved) options.improved(last);
+    }
     if (last.status == InferStatus::cancelled || last.status == InferStatus::deadline) break;
     if (until_explained && last.verdict == Verdict::explained) break;
     // An optimum that was found once only may not be the best that there is.
@@ -155,10 +158,10 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
   if (cut && whole > 0) {
     // Its intervals are whole, but a likelier optimum may have been left unfound.
     best.status = ended;
-    best.message = fmt::format("{} after {} starts; {}",
-                               ended == InferStatus::deadline ? "the deadline passed"
-                                                              : "cancelled by the requester",
-                               whole, best.message);
+    best.message = fmt::format(
+        "{} after {} starts; {}",
+        ended == InferStatus::deadline ? "the deadline passed" : "cancelled by the requester",
+        whole, best.message);
   }
   best.wall_s = watch.seconds(), best.iterations = iterations;
   best.factorizations = factorizations, best.forward_solves = solves;

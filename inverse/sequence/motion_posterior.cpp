@@ -23,9 +23,12 @@ std::optional<MotionExpansion> expansion(MotionProblem& problem, const Vector& u
   // Another point may have been looked at since.
   if (!local || !problem.value(u)) return {};
   const QuadraticTerm& prior = problem.prior();
-  MotionExpansion e{u, problem.values(), local->jacobian(u),
+  MotionExpansion e{u,
+                    problem.values(),
+                    local->jacobian(u),
                     Matrix(Eigen::SparseMatrix<double>(prior.rows.transpose() * prior.rows)),
-                    prior.gradient(u), {}};
+                    prior.gradient(u),
+                    {}};
   Eigen::Index first = 0;
   for (size_t k = 0; k < problem.comparisons().size(); ++k) {
     const Residuals& r = problem.residuals()[k];
@@ -38,8 +41,8 @@ std::optional<MotionExpansion> expansion(MotionProblem& problem, const Vector& u
     first += r.values.size();
   }
   for (double t : problem.controls().knots)
-    e.way.push_back(displacement_from_rest(problem.comparisons().front(),
-                                           shape_at(problem.trajectory(), t)));
+    e.way.push_back(
+        displacement_from_rest(problem.comparisons().front(), shape_at(problem.trajectory(), t)));
   return e;
 }
 

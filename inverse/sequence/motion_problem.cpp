@@ -42,8 +42,7 @@ void MotionProblem::set_prior(const Prior& prior) {
   for (size_t j = 1; j < count; ++j)
     steps[j] = walk_sd(prior, controls_.knots[j - 1], controls_.knots[j]);
   terms_ = prior_terms(prior, unknowns_);
-  prior_ = chained(std::vector(count, terms_), steps,
-                   std::vector<bool>(unknowns_.size(), true));
+  prior_ = chained(std::vector(count, terms_), steps, std::vector<bool>(unknowns_.size(), true));
   if (!options_.from_rest) return;
   for (size_t c = 0; c < unknowns_.size(); ++c) {
     const Unknown& unknown = unknowns_[c];

@@ -36,8 +36,10 @@ QuadraticDensity quadratic(const ObjectivePoint& p, const PriorTerms& prior,
                            const std::vector<Eigen::Index>& which, const Matrix& covariance) {
   const Matrix j = p.jacobian(Eigen::all, which);
   const Matrix weighted = covariance.llt().solve(j);
-  QuadraticDensity d{prior.hessian()(which, which) + j.transpose() * weighted, {},
-                     prior.lower(which), prior.upper(which)};
+  QuadraticDensity d{prior.hessian()(which, which) + j.transpose() * weighted,
+                     {},
+                     prior.lower(which),
+                     prior.upper(which)};
   d.hessian = 0.5 * (d.hessian + d.hessian.transpose()).eval();
   d.pull = d.hessian * p.activations(which) - prior.gradient(p.activations)(which) -
            weighted.transpose() * p.residuals.values;

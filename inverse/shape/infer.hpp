@@ -40,7 +40,8 @@ struct InferOptions {
   bool finite_differences = false;
   std::function<bool()> cancelled;  ///< asked between steps; true ends the work
   std::function<void(int iteration, double rms)> progress;  ///< rms in m
-  /// Told of the answer as it is after each step: best fit, shape and distances, no posterior.
+  /// Told of the answer as it is after each step: best fit, shape and distances, no posterior. Of
+  /// several starts, each that ends is told whole.
   std::function<void(const Answer& so_far)> improved;
 };
 

@@ -49,7 +49,8 @@ CommandsOverTime over_time(const Model& m, const Gesture& gesture) {
 Json intervals_of_movements(const BenchOptions& o, const Model& m, InferWorkspace& worker,
                             const Progress& progress) {
   constexpr double sigma = 0.4e-3;
-  const Model whole = build_model(with_turned_fibres(read_description(o.model), 5, o.seed), "truth");
+  const Model whole =
+      build_model(with_turned_fibres(read_description(o.model), 5, o.seed), "truth");
   const auto commands = muscle_unknowns(m, true);
   Workspace ws(whole);
   std::mt19937 random(o.seed);

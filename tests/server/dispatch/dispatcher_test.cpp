@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 namespace genio {
@@ -173,6 +174,25 @@ TEST_F(Dispatch, AtItsDeadlineARequestGetsTheBestSoFarAndNothingAfterwards) {
   answer("a", 0.5);
   EXPECT_TRUE(replies().empty());
   EXPECT_EQ(dispatcher.counts().running, 0);
+}
+
+TEST_F(Dispatch, AtItsDeadlineAWholeAnswerIsWorthMoreThanAStepOfTheNextStart) {
+  ask("a", "c", 0.2), dispatcher.next();
+  command_reply_t whole{}, step{};
+  whole.rms_mm = 0.5, whole.verdict = "explained", whole.muscle_count = 1;
+  whole.muscle = {"GGP"};
+  for (auto* values : {&whole.force_N, &whole.max_force_N, &whole.sd_N, &whole.low_N, &whole.high_N,
+                       &whole.acts, &whole.median_N, &whole.mean_N, &whole.information_bits})
+    *values = {1};
+  step = whole, step.rms_mm = 0.4, step.low_N = {std::nan("")}, step.verdict = "none";
+  dispatcher.keep_best("a", step), dispatcher.keep_best("a", whole);
+  dispatcher.keep_best("a", step);
+  dispatcher.pass_deadlines(now_us() + 200000);
+  const auto sent = replies();
+  ASSERT_EQ(sent.size(), 1u);
+  EXPECT_EQ(sent[0].reply.status, "deadline");
+  EXPECT_EQ(sent[0].reply.verdict, "explained");
+  EXPECT_EQ(sent[0].reply.rms_mm, 0.5);
 }
 
 // A queue of requests with names of megabytes once took 1.26 GB.
