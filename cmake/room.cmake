@@ -90,7 +90,8 @@ function(genio_checks_processor)
 endfunction()
 
 # genio_room(forward
-#   ROOMS base geometry ...       sub-rooms, lowest first: a file may include its own and lower ones
+#   ROOMS base geometry ...       sub-rooms, lowest first: a file may include its own and lower ones;
+#                                 "." is the room's own folder
 #   HEADERS base/types ...        what other rooms may include; these are installed. folder/* means
 #                                 all headers of a folder
 #   SINGLY recording/curves ...   sub-rooms whose files define alike names (genio_grouped)
@@ -103,7 +104,9 @@ function(genio_room name)
   genio_spell_out(room_HEADERS)
   set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   foreach(sub ${room_ROOMS})
-    list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${sub}/*.cpp)
+    if(NOT sub STREQUAL ".")
+      list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${sub}/*.cpp)
+    endif()
   endforeach()
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   add_library(genio_${name} STATIC ${sources})

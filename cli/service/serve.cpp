@@ -8,7 +8,7 @@
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
-#include "server/hub.hpp"
+#include "server/hub/hub.hpp"
 #include "server/link.hpp"
 #include "server/service.hpp"
 
