@@ -11,6 +11,7 @@
 #include "server/hub/hub.hpp"
 #include "server/link.hpp"
 #include "server/service.hpp"
+#include "server/tcp_address.hpp"
 
 namespace genio::cli {
 namespace {
