@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <csignal>
 #include <memory>
 
@@ -15,6 +16,9 @@
 
 namespace genio::cli {
 namespace {
+
+// For the last replies to reach those who wait for them.
+constexpr std::chrono::seconds longest_flush{3};
 
 std::atomic<bool> stop_requested{false};
 
@@ -46,6 +50,7 @@ Runner add_serve(Options& options) {
     std::signal(SIGTERM, [](int) { stop_requested = true; });
     fmt::print(stderr, "genio: serving '{}' on {}\n", m.name, service.url);
     serve(m, service, stop_requested);
+    if (hub) hub->flush(longest_flush);
     return done;
   };
 }
