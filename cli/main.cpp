@@ -16,6 +16,7 @@
 #include "cli/subcommands/import.hpp"
 #include "cli/subcommands/info.hpp"
 #include "cli/subcommands/invert.hpp"
+#include "cli/subcommands/journal.hpp"
 #include "cli/subcommands/merge.hpp"
 #include "cli/subcommands/plan.hpp"
 #include "forward/base/types.hpp"
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
           add_discover},
          {"serve", "Answer shape requests over LCM", add_serve},
          {"request", "Ask a server", add_request},
+         {"journal", "What a server accepted and answered, from its file", add_journal},
          {"bench", "Figures of merit, measured here", add_bench}}));
   } catch (const genio::InputError& e) {
     fmt::print(stderr, "genio: {}\n", e.what());

@@ -91,7 +91,7 @@ endfunction()
 
 # genio_room(forward
 #   ROOMS base geometry ...       sub-rooms, lowest first: a file may include its own and lower ones;
-#                                 "." is the room's own folder
+#                                 . is the room's own folder, where that holds files beside them
 #   HEADERS base/types ...        what other rooms may include; these are installed. folder/* means
 #                                 all headers of a folder
 #   SINGLY recording/curves ...   sub-rooms whose files define alike names (genio_grouped)
@@ -103,10 +103,10 @@ function(genio_room name)
   cmake_parse_arguments(room "INTERNAL" "" "ROOMS;HEADERS;SINGLY;PUBLIC;PRIVATE" ${ARGN})
   genio_spell_out(room_HEADERS)
   set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  foreach(sub ${room_ROOMS})
-    if(NOT sub STREQUAL ".")
-      list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${sub}/*.cpp)
-    endif()
+  set(room_FOLDERS ${room_ROOMS})
+  list(REMOVE_ITEM room_FOLDERS .)
+  foreach(sub ${room_FOLDERS})
+    list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${sub}/*.cpp)
   endforeach()
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   add_library(genio_${name} STATIC ${sources})

@@ -4,20 +4,22 @@
 
 #include <cmath>
 
+#include "forward/base/elapsed.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/search/multi_start.hpp"
+#include "inverse/target/tongue_line.hpp"
+#include "server/dispatch/replies.hpp"
 
 namespace genio {
 
-constexpr int most_starts = 1000;
-
 struct RequestWorker::State {
-  explicit State(const Model& m) : workspace(m) {
+  explicit State(const Model& m) : workspace(m), line(m) {
     TongueState* half = workspace.half(Prior{});
     TongueState& tongue = half ? *half : workspace.whole();
     tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace);
   }
   InferWorkspace workspace;
+  const TongueLine line;
 };
 
 RequestWorker::RequestWorker(const Model& model) : state_(std::make_unique<State>(model)) {}
@@ -43,7 +45,17 @@ ContourFrame frame_of(const shape_request_t& r) {
   return frame;
 }
 
-void fill(const Model& model, const Answer& a, command_reply_t& reply) {
+void fill_trades(const std::vector<TradeOff>& trades, command_reply_t& reply) {
+  for (size_t group = 0; group < trades.size(); ++group)
+    for (const Share& share : trades[group]) {
+      reply.trade_group.push_back(int(group));
+      reply.trade_muscle.push_back(share.name);
+      reply.trade_amount_N.push_back(share.amount);
+    }
+  reply.trade_count = int(reply.trade_group.size());
+}
+
+void fill(const TongueLine& line, const Answer& a, command_reply_t& reply) {
   for (const auto& c : a.muscles) {
     reply.muscle.push_back(c.name);
     reply.force_N.push_back(c.best);
@@ -54,8 +66,12 @@ void fill(const Model& model, const Answer& a, command_reply_t& reply) {
     reply.acts.push_back(c.acts);
     reply.median_N.push_back(c.median);
     reply.mean_N.push_back(c.mean);
+    reply.information_bits.push_back(c.information_bits);
   }
   reply.muscle_count = int(reply.muscle.size());
+  reply.mirrored = a.mirrored.value_or(std::nan(""));
+  reply.mixed_optima = a.mixed_optima;
+  fill_trades(a.unidentified, reply);
   for (const auto& group : a.unidentified)
     reply.unidentified.push_back(fmt::format("{}", fmt::join(names(group), "+")));
   reply.group_count = int(reply.unidentified.size());
@@ -67,7 +83,7 @@ void fill(const Model& model, const Answer& a, command_reply_t& reply) {
   reply.either_count = int(reply.either.size());
   reply.rms_mm = 1e3 * a.rms, reply.max_mm = 1e3 * a.max, reply.chi2_per_dof = a.chi2_per_dof;
   if (a.shape.size() > 0)
-    for (const Vec2& p : TongueLine(model).sample(a.shape, 80)) {
+    for (const Vec2& p : line.sample(a.shape, 80)) {
       reply.line_x_mm.push_back(1e3 * p[0]);
       reply.line_z_mm.push_back(1e3 * p[1]);
     }
@@ -85,30 +101,29 @@ void fill(const Model& model, const Answer& a, command_reply_t& reply) {
 }  // namespace
 
 command_reply_t answer_request(const Model& model, const shape_request_t& request,
-                               RequestWorker& worker,
-                               const std::function<void(int, double)>& progress,
-                               const std::function<bool()>& cancelled) {
-  command_reply_t reply{};
-  reply.id = request.id;
-  reply.status = "failed";
-  reply.verdict = "none";
+                               double deadline_s, RequestWorker& worker,
+                               const RequestHooks& hooks) {
+  command_reply_t reply = reply_without_answer(request.id, "failed", "");
+  const Stopwatch watch;
+  const TongueLine& line = worker.state().line;
   try {
-    if (!std::isfinite(request.default_sigma_mm) || request.default_sigma_mm < 0)
-      throw InputError("default_sigma_mm must be 0 or above");
-    if (!std::isfinite(request.deadline_s) || request.deadline_s < 0)
-      throw InputError("deadline_s must be 0 or above");
-    if (request.bilateral < -1 || request.bilateral > 1)
-      throw InputError("bilateral must be -1, 0 or 1");
-    if (request.starts < 0 || request.starts > most_starts)
-      throw InputError(fmt::format("starts must be 0 to {}", most_starts));
+    if (!request.model.empty() && request.model != model.name)
+      throw InputError(
+          fmt::format("model: '{}' is asked for; this server has '{}'", request.model, model.name));
     const double noise =
         request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm : point_noise;
     const Target target = make_target(model, frame_of(request), noise);
     InferOptions options;
-    options.deadline_s = request.deadline_s;
+    options.deadline_s = deadline_s;
     if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;
-    options.progress = progress;
-    options.cancelled = cancelled;
+    options.progress = hooks.progress, options.cancelled = hooks.cancelled;
+    if (hooks.improved)
+      options.improved = [&](const Answer& so_far) {
+        command_reply_t best = reply_without_answer(request.id, "deadline", "");
+        best.wall_s = watch.seconds();
+        fill(line, so_far, best);
+        hooks.improved(std::move(best));
+      };
     const Answer a = infer_from_starts(model, target, Prior{}, worker.state().workspace, options,
                                        {request.starts});
     reply.status = to_string(a.status);
@@ -117,7 +132,7 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
     reply.ipopt_iterations = a.iterations;
     reply.factorizations = a.factorizations;
     reply.wall_s = a.wall_s;
-    fill(model, a, reply);
+    fill(line, a, reply);
   } catch (const std::exception& e) {
     reply.message = e.what();
   }

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "forward/model/model.hpp"
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 namespace genio {
 
@@ -21,11 +21,17 @@ class RequestWorker {
   std::unique_ptr<State> state_;
 };
 
-/// Validates, builds the target, infers. Never throws: what is wrong with the request becomes a
-/// reply with status `failed`. `progress` (iteration, rms [m]) and `cancelled` may be empty.
+/// What is told and asked while an answer is computed; any of them may be empty.
+struct RequestHooks {
+  std::function<void(int iteration, double rms)> progress;  ///< rms [m]
+  std::function<void(command_reply_t so_far)> improved;
+  std::function<bool()> cancelled;
+};
+
+/// Builds the target and infers. Never throws: what is wrong with the points becomes a reply with
+/// status `failed`; see fault_of() for the other fields. `deadline_s`: from now on; 0: none.
 command_reply_t answer_request(const Model& model, const shape_request_t& request,
-                               RequestWorker& worker,
-                               const std::function<void(int iteration, double rms)>& progress,
-                               const std::function<bool()>& cancelled);
+                               double deadline_s, RequestWorker& worker,
+                               const RequestHooks& hooks = {});
 
 }  // namespace genio

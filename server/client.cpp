@@ -6,11 +6,13 @@
 #include <random>
 
 #include "forward/base/elapsed.hpp"
+#include "forward/base/types.hpp"
+#include "server/dispatch/admission.hpp"
 
 namespace genio {
 namespace {
 
-constexpr double ask_again_s = 2;
+constexpr double first_pause_s = 1, longest_pause_s = 8;  // before asking again
 
 std::string unique_name() {
   std::random_device random;
@@ -19,7 +21,11 @@ std::string unique_name() {
 
 }  // namespace
 
-Client::Client(const std::string& url) : link_(url), name_(unique_name()) {
+Client::Client(const std::string& url, std::string name)
+    : link_(url), name_(name.empty() ? unique_name() : std::move(name)) {
+  if (!usable_client(name_))
+    throw InputError(
+        fmt::format("client '{}': expected 1 to 40 letters, digits, '_' or '-'", name_));
   link_.subscribe("GENIO_REPLY." + name_,
                   [this](const std::string&, const void* data, size_t size) {
                     std::string why;
@@ -49,28 +55,44 @@ std::optional<command_reply_t> Client::request(
   progress_ = progress;
   const auto bytes = encode(request);
   const Stopwatch watch;
-  double ask_at = 0;
+  double ask_at = 0, pause = first_pause_s;
   while (!reply_ && watch.seconds() < timeout_s) {
     if (watch.seconds() >= ask_at) {
       link_.publish("GENIO_REQUEST", bytes);
-      ask_at = watch.seconds() + ask_again_s;
+      ask_at = watch.seconds() + pause;
+      pause = std::min(2 * pause, longest_pause_s);
     }
     link_.wait(20);
   }
   progress_ = {};
+  if (reply_) {
+    ack_t ack{};
+    ack.utime = now_us(), ack.id = reply_->id, ack.client = name_;
+    link_.publish("GENIO_ACK", encode(ack));
+  }
   return reply_;
 }
 
-void Client::cancel(const std::string& id) {
+std::optional<command_reply_t> Client::cancel(const std::string& id, double timeout_s) {
   cancel_t c{};
-  c.utime = now_us(), c.id = id;
-  link_.publish("GENIO_CANCEL", encode(c));
+  c.utime = now_us(), c.id = id, c.client = name_;
+  waiting_for_ = id;
+  reply_.reset();
+  const Stopwatch watch;
+  for (bool sent = false; !reply_ && watch.seconds() < timeout_s;) {
+    if (!sent) sent = link_.publish("GENIO_CANCEL", encode(c));
+    link_.wait(20);
+  }
+  return reply_;
 }
 
 std::optional<server_status_t> Client::status(double timeout_s) {
   status_.reset();
   const Stopwatch watch;
-  while (!status_ && watch.seconds() < timeout_s) link_.wait(50);
+  for (bool asked = false; !status_ && watch.seconds() < timeout_s;) {
+    if (!asked) asked = link_.publish("GENIO_ASK_STATUS", {0});
+    link_.wait(50);
+  }
   return status_;
 }
 

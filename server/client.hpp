@@ -6,24 +6,27 @@
 #include <string>
 
 #include "server/link.hpp"
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 namespace genio {
 
 /// Sends requests and waits for their replies; one object a thread.
 class Client {
  public:
-  /// `url` as choose_url gives it. Throws InputError when it cannot be used.
-  explicit Client(const std::string& url);
+  /// `url` as choose_url gives it; `name`: under which the replies come, 1 to 40 letters, digits,
+  /// '_' or '-' (empty: one that nobody has). Throws InputError when either cannot be used.
+  explicit Client(const std::string& url, std::string name = {});
 
   /// Sends the request (filling id, client and time where empty) and waits for its reply; asks
-  /// again every 2 s, which a server answers once. Nothing when no reply came in time.
+  /// again after 1, 2, 4 and at most 8 s, which a server computes once. Nothing when no reply came
+  /// in time.
   std::optional<command_reply_t> request(
       shape_request_t request, double timeout_s,
       const std::function<void(const progress_t&)>& progress = {});
-  /// Withdraws a request.
-  void cancel(const std::string& id);
-  /// The next status message of a server; nothing when none came in time.
+  /// Withdraws a request of this client's name, and gives what is answered to it: its reply, or
+  /// that nothing was withdrawn. Nothing when nobody answered in time.
+  std::optional<command_reply_t> cancel(const std::string& id, double timeout_s);
+  /// Asks for a server's status; nothing when none came in time.
   std::optional<server_status_t> status(double timeout_s);
 
   const std::string& name() const { return name_; }

@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "forward/base/types.hpp"
+#include "server/hub/protocol/tcpq.hpp"
 #include "server/silenced.hpp"
 #include "server/tcp_address.hpp"
 
@@ -24,7 +25,28 @@ namespace genio {
 
 namespace {
 
-/// True where somebody listens there.
+/// True where the socket becomes ready for `events` in time.
+bool ready(int fd, short events, int longest_ms) {
+  pollfd polled{fd, events, 0};
+  return poll(&polled, 1, longest_ms) == 1 && (polled.revents & events);
+}
+
+/// True where a hub greets back: LCM itself would wait for that without end.
+bool greets(int fd, int longest_ms) {
+  const std::vector<char> greeting = tcpq::greeting(tcpq::client_mark);
+  const auto sent = send(fd, greeting.data(), greeting.size(), MSG_NOSIGNAL);
+  if (sent != ssize_t(greeting.size())) return false;
+  std::vector<char> answer(tcpq::greeting_bytes);
+  size_t got = 0;
+  while (got < answer.size() && ready(fd, POLLIN, longest_ms)) {
+    const auto n = recv(fd, answer.data() + got, answer.size() - got, 0);
+    if (n <= 0) return false;
+    got += size_t(n);
+  }
+  return got == answer.size() && tcpq::word_at(answer, 0) == tcpq::server_mark;
+}
+
+/// True where a hub listens there.
 bool answers(const std::string& host, uint16_t port) {
   constexpr int longest_ms = 1000;
   sockaddr_in address{};
@@ -35,12 +57,12 @@ bool answers(const std::string& host, uint16_t port) {
   if (fd < 0) return false;
   bool good = ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   if (!good && errno == EINPROGRESS) {
-    pollfd polled{fd, POLLOUT, 0};
     int error = 0;
     socklen_t size = sizeof error;
-    good = poll(&polled, 1, longest_ms) == 1 &&
+    good = ready(fd, POLLOUT, longest_ms) &&
            getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
   }
+  good = good && greets(fd, longest_ms);
   close(fd);
   return good;
 }

@@ -6,19 +6,23 @@
 #include <string>
 
 #include "forward/model/model.hpp"
+#include "server/dispatch/limits.hpp"
 
 namespace genio {
 
 struct ServiceOptions {
-  std::string url;        ///< as choose_url gives it
-  int queue = 256;        ///< requests that may wait; more are refused with a reply
-  int remembered = 4096;  ///< replies kept for repeated ids
+  std::string url;  ///< as choose_url gives it
+  DispatchLimits limits;
+  /// File that keeps requests and replies, see docs/journal.md; empty: they end with the process.
+  std::string journal;
   std::function<void(const std::string& line)> log;
 };
 
-/// Serves until `stop` becomes true. One thread owns the LCM connection, one computes (Ipopt with
-/// MUMPS is not thread-safe). Every request gets a reply; a repeated id gets the reply of the
-/// first, computed once. Throws InputError when the URL cannot be used.
+/// Serves until `stop` becomes true, see Dispatcher. One thread owns the LCM connection, one
+/// computes (Ipopt with MUMPS is not thread-safe). Nothing is taken before the table of starting
+/// shapes is made. With a journal, a request is acknowledged and a reply sent only once they stand
+/// on the disk, and what an earlier process left unanswered is taken up. Throws InputError when the
+/// URL or the journal cannot be used.
 void serve(const Model& model, const ServiceOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace genio

@@ -22,6 +22,10 @@ example=$source/data/examples/example_shape.csv
 expect 0 '"min_corner_jacobian_ratio"' "$genio" info --json
 expect 0 '"volume_change_percent"' "$genio" forward --force GGP=2 --json --out shape
 [ -s shape/shape.vtu ] || { echo "FAILED: no shape.vtu"; failed=1; }
+expect 2 'is no journal of Genio' "$genio" journal "$example" list
+expect 2 'expected one of list, export and prune' "$genio" journal nowhere
+expect 2 'expected --older-than, --keep-mb or --delivered' "$genio" journal nowhere prune
+expect 2 "'journal list' does not take it" "$genio" journal nowhere list --out o
 expect 2 'did you mean GGP' "$genio" forward --force GPG=2
 expect 2 'above the muscle' "$genio" forward --force GGP=500
 expect 2 'expected NAME=NUMBER' "$genio" forward --force GGP=nan

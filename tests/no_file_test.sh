@@ -30,6 +30,8 @@ invert --target $target --prior IT
 invert --target $target --textgrid IT
 discover --observations IT --out o
 forward --dynamic --commands IT
+journal IT list
+journal IT prune --delivered
 END
 for arguments in "invert --target line.csv" "invert --format aaa --target line.csv" \
                  "forward --dynamic --commands line.csv" "invert --target $target --prior line.csv"; do

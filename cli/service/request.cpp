@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "cli/option_sets/measured_options.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 struct RequestOptions {
   MeasuredOptions measured;
-  std::string url, model = default_model(), out, cancel_id;
+  std::string url, model = default_model(), out, cancel_id, client;
   double timeout_s = 120, deadline_s = 0;
   int starts = 0;
   bool json = false;
@@ -65,8 +66,15 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
                          .mean = r.mean_N[i],
                          .sd = r.sd_N[i],
                          .low = r.low_N[i],
-                         .high = r.high_N[i]});
+                         .high = r.high_N[i],
+                         .information_bits = r.information_bits[i]});
   for (const auto& group : r.unidentified) v.unidentified.push_back(parted(group));
+  v.trade_offs.resize(r.unidentified.size());
+  for (size_t k = 0; k < r.trade_group.size(); ++k)
+    if (const auto group = size_t(r.trade_group[k]); group < v.trade_offs.size())
+      v.trade_offs[group].push_back({r.trade_muscle[k], r.trade_amount_N[k]});
+  if (!std::isnan(r.mirrored)) v.mirrored = r.mirrored;
+  v.mixed_optima = r.mixed_optima;
   for (size_t k = 0; k < r.either.size(); ++k)
     v.joint.push_back(
         {parted(r.either[k]), r.either_acts[k], r.either_low_N[k], r.either_high_N[k]});
@@ -94,7 +102,7 @@ int run_request(const RequestOptions& o) {
     return *read;
   };
   const Measured measured = read_measured(o.measured, model, print_line);
-  Client client(choose_url(o.url));
+  Client client(choose_url(o.url), o.client);
   if (!client.connected())
     print_line(fmt::format("nobody listens on {} yet; waiting for up to {} s", choose_url(o.url),
                            o.timeout_s));
@@ -131,12 +139,29 @@ int run_status(const RequestOptions& o) {
   return done;
 }
 
+/// The client's name in an id that Client made: "NAME-NUMBER".
+std::string client_of(const std::string& id) { return id.substr(0, id.rfind('-')); }
+
+int run_cancel(const RequestOptions& o) {
+  Client client(choose_url(o.url), o.client.empty() ? client_of(o.cancel_id) : o.client);
+  if (!client.connected())
+    throw std::runtime_error(fmt::format("nobody listens on {}", choose_url(o.url)));
+  const auto reply = client.cancel(o.cancel_id, o.timeout_s);
+  if (!reply)
+    throw std::runtime_error(
+        fmt::format("no answer on {} within {} s", choose_url(o.url), o.timeout_s));
+  print_line(fmt::format("{}: {}{}{}", o.cancel_id, reply->status,
+                         reply->message.empty() ? "" : ": ", reply->message));
+  return reply->status == "cancelled" ? done : no_answer;
+}
+
 }  // namespace
 
 Runner add_request(Options& options) {
   auto o = std::make_shared<RequestOptions>();
   options.add("--lcm", o->url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
   add_measured_options(options, o->measured);
+  options.add("--client", o->client, "Name under which replies come (default: one of its own)");
   options.add("--timeout-s", o->timeout_s, "How long to wait for each reply", {.positive = true});
   options.add("--deadline-s", o->deadline_s, "Time the server may compute", {.positive = true});
   options.add("--starts", o->starts, "Descents, to find other answers that fit",
@@ -146,18 +171,13 @@ Runner add_request(Options& options) {
   options.add("--out", o->out, "Folder for pictures and numbers");
   const Options status =
       options.subcommand("status", "What the server is doing", {"--lcm", "--timeout-s", "--json"});
-  Options cancel = options.subcommand("cancel", "Withdraw a request", {"--lcm"});
+  Options cancel = options.subcommand("cancel", "Withdraw a request of the same client",
+                                      {"--lcm", "--timeout-s", "--client"});
   cancel.add("id", o->cancel_id, "Id of the request", {.required = true});
   options.footer("Example: genio request --target data/examples/example_shape.csv");
   return [o, status, cancel]() -> int {
     if (status.chosen()) return run_status(*o);
-    if (cancel.chosen()) {
-      Client client(choose_url(o->url));
-      if (!client.connected())
-        throw std::runtime_error(fmt::format("nobody listens on {}", choose_url(o->url)));
-      client.cancel(o->cancel_id);
-      return done;
-    }
+    if (cancel.chosen()) return run_cancel(*o);
     return run_request(*o);
   };
 }

@@ -28,15 +28,19 @@ Runner add_serve(Options& options) {
   auto url = std::make_shared<std::string>();
   auto model = std::make_shared<std::string>(default_model());
   auto queue = std::make_shared<int>(256);
+  auto journal = std::make_shared<std::string>();
   options.add("--lcm", *url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
   options.add("--model", *model, "Model folder or model.toml");
   options.add("--queue", *queue, "Requests that may wait", {.range = {{1, 100000}}});
+  options.add("--journal", *journal,
+              "File that keeps requests and replies beyond this process (default: none)");
   options.footer("Example: genio serve --lcm tcpq://127.0.0.1:7700");
   return [=]() -> int {
     const Model m = read_model(*model);
     ServiceOptions service;
     service.url = choose_url(*url);
-    service.queue = *queue;
+    service.limits.waiting = *queue;
+    service.journal = *journal;
     service.log = print_line;
     std::unique_ptr<Hub> hub;
     if (const uint16_t port = local_tcpq_port(service.url)) {
@@ -48,7 +52,10 @@ Runner add_serve(Options& options) {
     }
     std::signal(SIGINT, [](int) { stop_requested = true; });
     std::signal(SIGTERM, [](int) { stop_requested = true; });
-    fmt::print(stderr, "genio: serving '{}' on {}\n", m.name, service.url);
+    fmt::print(stderr, "genio: serving '{}' on {}{}\n", m.name, service.url,
+               service.journal.empty()
+                   ? "; without --journal, requests that wait are lost if this process is killed"
+                   : "");
     serve(m, service, stop_requested);
     if (hub) hub->flush(longest_flush);
     return done;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/algebra/gmres.hpp"
 #include "forward/statics/sensitivity.hpp"
 
 namespace genio {
 namespace {
 
-constexpr int most_corrections = 30;
-constexpr double contraction = 0.1;  // of an iteration, at least
+constexpr int most_corrections = 60;
 
 Matrix times(const NodeMatrix& mass, const Matrix& nodal) {
   Matrix result(nodal.rows(), nodal.cols());
@@ -104,17 +104,21 @@ bool Differentiation::advance(const Instant& from, const Instant& to, Eigen::Ind
   ws_.reduced.assign(ws_.stiffness);
   if (!ws_.cholesky.factorize(ws_.reduced)) return false;
 
-  Matrix u = u0 + dt * v0;  // a guess for what viscous forces add
-  for (int i = 0; i < most_corrections; ++i) {
-    const Matrix right = known + viscous_slope(model_, x, v, p, f * u + s_.alpha_f * u0, scratch_);
-    const Matrix next =
-        expand_columns(model_.dofs, ws_.cholesky.solve(reduce_columns(model_.dofs, right)) / f);
-    const double off = (next - u).norm(), size = next.norm();
-    u = next;
-    // The tangent lacks only the viscous slope, some hundredths of it: each iteration gains as
-    // much.
-    if (off * contraction <= accuracy_ * size) break;
-  }
+  // The tangent lacks the slope of the viscous forces: some hundredths of it in the tissue, but
+  // more than all of it where the tongue hits a bone.
+  const auto solved = [&](const Matrix& nodal) {
+    return Matrix(ws_.cholesky.solve(reduce_columns(model_.dofs, nodal)) / f);
+  };
+  const auto viscous = [&](const Matrix& along) {
+    return viscous_slope(model_, x, v, p, along, scratch_);
+  };
+  Matrix inner = reduce_columns(model_.dofs, u0 + dt * v0);
+  const auto step = [&](const Matrix& unknowns) {
+    return Matrix(unknowns - solved(viscous(f * expand_columns(model_.dofs, unknowns))));
+  };
+  if (!gmres(step, solved(known + viscous(s_.alpha_f * u0)), accuracy_, most_corrections, inner))
+    return false;
+  const Matrix u = expand_columns(model_.dofs, inner);
   state.a.leftCols(active) = by_u * u + a_known;
   state.v.leftCols(active) = v0 + dt * ((1 - s_.gamma) * a0 + s_.gamma * state.a.leftCols(active));
   state.u.leftCols(active) = u;

@@ -28,8 +28,8 @@ struct Controls {
 /// that `trajectory` took (direct differentiation of the generalised-alpha scheme), shapes between
 /// instants being linear in time. `start`: derivative of the first shape, which stays at rest;
 /// without columns it does not move. Each step solves J S = right-hand sides with its own tangent
-/// factorised; what viscous forces add through the shape is iterated to `accuracy` of S. Empty
-/// where a tangent is not positive definite. Throws InputError for models with activation_dynamics,
+/// factorised; what viscous forces add through the shape is solved for to `accuracy` (gmres()). Empty
+/// where a tangent is not positive definite or that does not converge. Throws InputError for models with activation_dynamics,
 /// whose forces lag behind the commands.
 std::vector<Matrix> motion_sensitivity(const Model& model, const Controls& controls,
                                        const CommandsOverTime& commands,

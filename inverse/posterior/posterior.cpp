@@ -42,22 +42,6 @@ BoxGaussian density_of(const PriorTerms& prior) {
   return about(lower - h.llt().solve(slope), h, lower, upper);
 }
 
-LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
-                       const Matrix& covariance) {
-  LocalPosterior result = posterior;
-  BoxGaussian& d = result.density;
-  const Eigen::LLT<Matrix> factor(d.hessian);
-  const Matrix by_data = factor.solve(jacobian.transpose());
-  Matrix spread = factor.solve(Matrix::Identity(d.hessian.rows(), d.hessian.cols())) +
-                  by_data * covariance * by_data.transpose();
-  spread = 0.5 * (spread + spread.transpose()).eval();
-  const Vector to_centre = factor.solve(d.slope);
-  d.hessian = spread.llt().solve(Matrix::Identity(spread.rows(), spread.cols()));
-  d.hessian = 0.5 * (d.hessian + d.hessian.transpose()).eval();
-  d.slope = d.hessian * to_centre;  // the same centre
-  return result;
-}
-
 MarginalSummary summarise(const Vector& samples, const Vector& weights, double lower,
                           double upper) {
   struct Weighted {

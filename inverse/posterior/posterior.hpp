@@ -22,11 +22,6 @@ LocalPosterior local_posterior(const PriorTerms& prior, const Vector& z, const V
 /// The prior of the unknowns that are not fixed, given the fixed ones.
 BoxGaussian density_of(const PriorTerms& prior);
 
-/// The same where the model errs by `covariance` (of the residuals), which the fit did not know:
-/// the estimate scatters by H^-1 J^T C J H^-1 more (the sandwich of Huber 1967).
-LocalPosterior widened(const LocalPosterior& posterior, const Matrix& jacobian,
-                       const Matrix& covariance);
-
 /// Of weighted samples: moments, and the shortest interval that holds 90 % of them. It is one-sided
 /// where the density does not fall towards a bound.
 struct MarginalSummary {

@@ -1,5 +1,7 @@
 #include "inverse/search/multi_start.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -132,7 +134,8 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     here.rough_start = start.shape.size() == 0;
     if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - watch.seconds()) <= 0) {
       // As when the first start was all that there was time for: to make the atlas takes long.
-      if (k == 0) last.status = InferStatus::deadline, last.message = "the deadline passed";
+      last.status = InferStatus::deadline;
+      if (k == 0) last.message = "the deadline passed before the first step was done";
       break;
     }
     last = (options.full_space ? infer_full_space : infer)(model, target, prior, tongue.workspace,
@@ -145,7 +148,18 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     // An optimum that was found once only may not be the best that there is.
     if (until_explained && k + 1 >= enough && (found.empty() || settled(found))) break;
   }
+  const InferStatus ended = last.status;
+  const bool cut = ended == InferStatus::deadline || ended == InferStatus::cancelled;
+  const size_t whole = found.size();
   Answer best = found.empty() ? std::move(last) : weighed(std::move(found), unknowns, terms);
+  if (cut && whole > 0) {
+    // Its intervals are whole, but a likelier optimum may have been left unfound.
+    best.status = ended;
+    best.message = fmt::format("{} after {} starts; {}",
+                               ended == InferStatus::deadline ? "the deadline passed"
+                                                              : "cancelled by the requester",
+                               whole, best.message);
+  }
   best.wall_s = watch.seconds(), best.iterations = iterations;
   best.factorizations = factorizations, best.forward_solves = solves;
   return best;

@@ -42,6 +42,10 @@ InferOptions half_options(const Mirror& mirror, const InferOptions& options) {
   if (options.start_shape) result.start_shape = mirror.right_half(*options.start_shape);
   if (options.start_by_unknown.size() > 0)
     result.start_by_unknown = mirror.right_half(options.start_by_unknown);
+  if (options.improved)
+    result.improved = [&mirror, tell = options.improved](const Answer& half) {
+      tell(whole_answer(mirror, half));
+    };
   return result;
 }
 

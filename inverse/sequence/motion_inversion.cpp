@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "inverse/sequence/motion_problem.hpp"
+#include "inverse/sequence/motion_posterior.hpp"
 #include "inverse/shape/settled_posterior.hpp"
 #include "inverse/shape/summary.hpp"
 #include "inverse/target/comparison.hpp"
@@ -14,7 +14,6 @@
 namespace genio {
 namespace {
 
-constexpr int sample_count = 1000;
 constexpr double static_part = 0.15;  // of the work: the answers without motion
 
 void check(const Model& model, const std::vector<MotionFrame>& frames, const Prior& prior) {
@@ -59,11 +58,15 @@ Vector static_start(const Model& model, const std::vector<MotionFrame>& frames, 
   return u;
 }
 
-/// Posterior of all knots together, within bounds, widened by the model's error.
-void summarise(MotionProblem& problem, const Vector& u, const ModelError& error,
-               MotionAnswer& answer) {
-  const auto n = Eigen::Index(problem.unknowns().size());
-  std::vector<Eigen::Index> open;
+/// The verdict of all frames together, by the fit of all knots' unknowns, and which bounds press.
+struct MotionFit {
+  FitTest test;
+  std::vector<int> side;  ///< of each unknown, see pressed(); 0: none, or it is fixed
+};
+
+MotionFit fit_of(MotionProblem& problem, const Vector& u, const ModelError& error) {
+  MotionFit fit{{}, std::vector<int>(size_t(u.size()), 0)};
+  std::vector<Eigen::Index> open, free;
   for (Eigen::Index i = 0; i < u.size(); ++i)
     if (problem.lower()[i] < problem.upper()[i]) open.push_back(i);
   LocalProblem& local = *problem.local_problem(u);
@@ -71,65 +74,63 @@ void summarise(MotionProblem& problem, const Vector& u, const ModelError& error,
   Vector slope;
   local.gradient(u, slope);
   const Matrix j = local.jacobian(u);
-  const auto rows = j.rows();
-  Matrix wide = Matrix::Zero(rows, rows), left = wide;
-  Vector residuals(rows);
+  const BoxGaussian narrow{u(open), slope(open), h(open, open), problem.lower()(open),
+                           problem.upper()(open)};
+  for (size_t f = 0; f < open.size(); ++f) {
+    fit.side[size_t(open[f])] = pressed(narrow, Eigen::Index(f));
+    if (fit.side[size_t(open[f])] == 0) free.push_back(open[f]);
+  }
+  Matrix scatter = Matrix::Identity(j.rows(), j.rows());
   Eigen::Index first = 0;
-  for (size_t k = 0; k < answer.frames.size(); ++k) {
-    const Residuals& r = answer.frames[k].residuals;
-    const auto count = r.values.size();
+  for (size_t k = 0; k < problem.residuals().size(); ++k) {
+    const Residuals& r = problem.residuals()[k];
+    const auto rows = Eigen::seqN(first, r.values.size());
     const Comparison& comparison = problem.comparisons()[k];
-    const Positions& x = answer.frames[k].shape;
-    const double way = displacement_from_rest(comparison, x);
-    wide.block(first, first, count, count) =
-        model_error_covariance(r, std::max(error.least, error.part * way), error.length);
-    left.block(first, first, count, count) =
-        unabsorbed_error(r, error, way, ways_from_rest(r, x, comparison.rest()));
-    residuals.segment(first, count) = r.values;
-    first += count;
+    const Positions x = problem.shape(k);
+    scatter(rows, rows) += unabsorbed_error(r, error, displacement_from_rest(comparison, x),
+                                            ways_from_rest(r, x, comparison.rest()));
+    first += r.values.size();
   }
-  LocalPosterior narrow{
-      {u(open), slope(open), h(open, open), problem.lower()(open), problem.upper()(open)}, open};
-  std::vector<Eigen::Index> free;
-  for (size_t i = 0; i < open.size(); ++i) {
-    const int side = pressed(narrow.density, Eigen::Index(i));
-    if (side == 0) narrow.density.slope[Eigen::Index(i)] = 0, free.push_back(open[i]);
-  }
-  const Matrix samples = sample(widened(narrow, j(Eigen::all, open), wide).density, sample_count);
-  const Matrix prior_precision =
-      Matrix(problem.prior().rows.transpose() * problem.prior().rows)(open, open);
-  const Matrix believed = sample({u(open), Vector::Zero(Eigen::Index(open.size())), prior_precision,
-                                  problem.lower()(open), problem.upper()(open)},
-                                 sample_count);
-  answer.estimates.resize(answer.knots_s.size());
-  for (size_t knot = 0, f = 0; knot < answer.knots_s.size(); ++knot)
-    for (Eigen::Index c = 0; c < n; ++c) {
-      const Eigen::Index i = n * Eigen::Index(knot) + c;
-      const Unknown& unknown = problem.unknowns()[size_t(c)];
-      Estimate e{unknown.name, u[i] * unknown.scale, unknown.scale, unknown.unit, unknown.kind};
-      e.low = e.high = e.median = e.mean = e.best, e.fixed = true;
-      if (f < open.size() && open[f] == i) {
-        const double lower = problem.lower()[i], upper = problem.upper()[i];
-        e = estimate(unknown, u[i], genio::summarise(samples.row(Eigen::Index(f)), lower, upper),
-                     genio::summarise(believed.row(Eigen::Index(f)), lower, upper).sd);
-        const int side = pressed(narrow.density, Eigen::Index(f));
-        e.at_lower = side<0, e.at_upper = side> 0;
-        ++f;
-      }
-      answer.estimates[knot].push_back(std::move(e));
-    }
   const Matrix j_free = j(Eigen::all, free);
   const double used =
       free.empty() ? 0.0 : (j_free * Matrix(h(free, free)).llt().solve(j_free.transpose())).trace();
-  const FitTest test = test_fit(residuals, left + Matrix::Identity(rows, rows), used,
-                                slope(open).dot(Matrix(h(open, open)).llt().solve(slope(open))));
-  answer.chi2_per_dof = test.chi2_per_dof, answer.verdict = test.verdict;
-  answer.message = fmt::format("misfit {} noise (p = {:.2g})",
-                               test.verdict == Verdict::explained ? "within" : "beyond", test.tail);
+  fit.test = test_fit(problem.values(), scatter, used,
+                      slope(open).dot(Matrix(h(open, open)).llt().solve(slope(open))));
+  return fit;
+}
+
+/// Verdict, estimates and joint statements of an answer whose optimum is u. False where the
+/// posterior cannot be had.
+bool summarise(MotionProblem& problem, const Vector& u, const ModelError& error,
+               MotionAnswer& answer) {
+  const MotionFit fit = fit_of(problem, u, error);
+  const auto posteriors = motion_posterior(problem, u, error);
+  if (posteriors.empty()) return false;
+  const auto n = Eigen::Index(problem.unknowns().size());
+  for (size_t knot = 0; knot < posteriors.size(); ++knot) {
+    const Eigen::Index first = n * Eigen::Index(knot);
+    Answer here;
+    set_estimates(problem.unknowns(), terms_at(problem, knot), posteriors[knot],
+                  u.segment(first, n), here);
+    auto& all = answer.estimates.emplace_back(std::move(here.muscles));
+    all.insert(all.end(), here.others.begin(), here.others.end());
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const int side = fit.side[size_t(first + i)];
+      all[size_t(i)].at_lower = side<0, all[size_t(i)].at_upper = side> 0;
+    }
+    answer.joint.push_back(std::move(here.joint));
+  }
+  answer.chi2_per_dof = fit.test.chi2_per_dof, answer.verdict = fit.test.verdict;
+  answer.message =
+      fmt::format("misfit {} noise (p = {:.2g})",
+                  fit.test.verdict == Verdict::explained ? "within" : "beyond", fit.test.tail);
+  return true;
 }
 
 MotionAnswer unfolded(const Mirror& mirror, MotionAnswer answer) {
   for (auto& knot : answer.estimates) double_forces(knot);
+  for (auto& knot : answer.joint)
+    for (JointForce& j : knot) j.low *= 2, j.high *= 2;
   for (auto& f : answer.frames) f.shape = mirror.whole(f.shape);
   for (Instant& i : answer.trajectory.instants) {
     i.x = mirror.whole(i.x), i.velocity = mirror.whole(i.velocity);
@@ -180,17 +181,16 @@ MotionAnswer infer_motion(const Model& model, const std::vector<MotionFrame>& fr
   if (r.converged) {
     // A trial may have been the latest motion.
     const bool again = problem.value(r.u) && problem.local_problem(r.u);
-    answer.status = again ? InferStatus::converged : InferStatus::failed;
     if (again) {
       answer.trajectory = problem.trajectory(), answer.rms = problem.rms();
       for (size_t k = 0; k < own.size(); ++k)
         answer.frames.push_back(
             {own[k].time_s, shape_at(answer.trajectory, own[k].time_s), problem.residuals()[k]});
       answer.unknowns = by_point(r.u, n);
-      summarise(problem, r.u, o.infer.model_error, answer);
-    } else {
-      answer.message = problem.last_failure();
     }
+    if (again && summarise(problem, r.u, o.infer.model_error, answer))
+      answer.status = InferStatus::converged;
+    else answer.message = problem.last_failure();
   } else if (problem.stopped()) {
     answer.status = problem.stop_reason();
     answer.message = answer.status == InferStatus::deadline ? "the deadline passed"

@@ -37,6 +37,7 @@ struct MotionAnswer {
   std::vector<double> knots_s;
   /// Unknowns at each knot: forces [N] or other parameters, linear between knots.
   std::vector<std::vector<Estimate>> estimates;
+  std::vector<std::vector<JointForce>> joint;  ///< of each knot, see Answer
   std::vector<Vector> unknowns;  ///< the same as unknowns z
   std::vector<Frame> frames;
   double rms = 0, chi2_per_dof = 0;  ///< rms over all points [m]

@@ -41,7 +41,8 @@ void MotionProblem::set_prior(const Prior& prior) {
   std::vector<double> steps(count, 1);
   for (size_t j = 1; j < count; ++j)
     steps[j] = walk_sd(prior, controls_.knots[j - 1], controls_.knots[j]);
-  prior_ = chained(std::vector(count, prior_terms(prior, unknowns_)), steps,
+  terms_ = prior_terms(prior, unknowns_);
+  prior_ = chained(std::vector(count, terms_), steps,
                    std::vector<bool>(unknowns_.size(), true));
   if (!options_.from_rest) return;
   for (size_t c = 0; c < unknowns_.size(); ++c) {
@@ -51,6 +52,18 @@ void MotionProblem::set_prior(const Prior& prior) {
                                               ? 0
                                               : base_[unknown.parameters.front()] / unknown.scale;
   }
+}
+
+Vector MotionProblem::values() const {
+  Eigen::Index count = 0;
+  for (const Residuals& r : residuals_) count += r.values.size();
+  Vector all(count);
+  Eigen::Index first = 0;
+  for (const Residuals& r : residuals_) {
+    all.segment(first, r.values.size()) = r.values;
+    first += r.values.size();
+  }
+  return all;
 }
 
 double MotionProblem::rms() const {

@@ -26,7 +26,11 @@ class MotionProblem final : public MisfitProblem {
   int simulations() const { return simulations_; }
   InferStatus stop_reason() const { return clock_.reason(); }
   double seconds() const { return clock_.seconds(); }
+  Vector values() const;  ///< of the residuals, one frame's after another's
+  /// Of the tongue at a frame.
+  Positions shape(size_t frame) const { return shape_at(trajectory_, frames_[frame].time_s); }
   const QuadraticTerm& prior() const { return prior_.all; }
+  const PriorTerms& terms() const { return terms_; }  ///< of a knot, the walk left out
 
   const Vector& lower() const override { return prior_.lower; }
   const Vector& upper() const override { return prior_.upper; }
@@ -52,6 +56,7 @@ class MotionProblem final : public MisfitProblem {
   Controls controls_;
   Parameters base_;
   std::vector<Comparison> comparisons_;
+  PriorTerms terms_;
   ChainedPrior prior_;
   std::optional<Equilibrium> start_;
   Vector at_;  // the latest point, and there:

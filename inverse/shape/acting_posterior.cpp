@@ -31,22 +31,25 @@ RestBelief rest_belief(const std::vector<Unknown>& unknowns, const PriorTerms& p
   return belief;
 }
 
-/// Data and prior about the point, without effort where a muscle may rest, which has a slab for it.
+/// Data and prior about the point.
 QuadraticDensity quadratic(const ObjectivePoint& p, const PriorTerms& prior,
-                           const std::vector<Eigen::Index>& which, const Vector& slab,
-                           const Matrix& covariance) {
+                           const std::vector<Eigen::Index>& which, const Matrix& covariance) {
   const Matrix j = p.jacobian(Eigen::all, which);
-  const Vector z = p.activations(which);
   const Matrix weighted = covariance.llt().solve(j);
-  QuadraticDensity d{prior.hessian()(which, which), {}, prior.lower(which), prior.upper(which)};
-  Vector gradient = prior.gradient(p.activations)(which);
+  QuadraticDensity d{prior.hessian()(which, which) + j.transpose() * weighted, {},
+                     prior.lower(which), prior.upper(which)};
+  d.hessian = 0.5 * (d.hessian + d.hessian.transpose()).eval();
+  d.pull = d.hessian * p.activations(which) - prior.gradient(p.activations)(which) -
+           weighted.transpose() * p.residuals.values;
+  return d;
+}
+
+/// The density without effort where a muscle may rest, which has a slab for it.
+QuadraticDensity without_effort(QuadraticDensity d, const PriorTerms& prior,
+                                const std::vector<Eigen::Index>& which, const Vector& slab) {
   for (Eigen::Index i = 0; i < slab.size(); ++i)
     if (const double sd = prior.effort[which[size_t(i)]]; sd > 0 && slab[i] > 0)
-      d.hessian(i, i) -= 1 / (sd * sd), gradient[i] -= z[i] / (sd * sd);
-  d.hessian += j.transpose() * weighted;
-  gradient += weighted.transpose() * p.residuals.values;
-  d.hessian = 0.5 * (d.hessian + d.hessian.transpose()).eval();
-  d.pull = d.hessian * z - gradient;
+      d.hessian(i, i) -= 1 / (sd * sd);
   return d;
 }
 
@@ -85,12 +88,12 @@ Matrix residual_covariance(const Residuals& r, const ModelError& error, double w
   return covariance;
 }
 
-ActingPosterior acting_posterior(const ObjectivePoint& point, const std::vector<Unknown>& unknowns,
+ActingPosterior acting_posterior(QuadraticDensity whole, const std::vector<Unknown>& unknowns,
                                  const PriorTerms& prior, const ModelError& error, double way) {
   ActingPosterior result{prior.open(), {}, {}, {}};
   result.belief = rest_belief(unknowns, prior, result.which);
-  const QuadraticDensity density = quadratic(point, prior, result.which, result.belief.slab,
-                                             residual_covariance(point.residuals, error, way));
+  const QuadraticDensity density =
+      without_effort(std::move(whole), prior, result.which, result.belief.slab);
   result.samples =
       sample(density, result.belief, acting_states(density, result.belief), sample_count);
   result.centre = result.samples.values * result.samples.weights;
@@ -99,11 +102,22 @@ ActingPosterior acting_posterior(const ObjectivePoint& point, const std::vector<
   return result;
 }
 
+ActingPosterior acting_posterior(const ObjectivePoint& point, const std::vector<Unknown>& unknowns,
+                                 const PriorTerms& prior, const ModelError& error, double way) {
+  return acting_posterior(
+      quadratic(point, prior, prior.open(), residual_covariance(point.residuals, error, way)),
+      unknowns, prior, error, way);
+}
+
+double nonlinearity(const Vector& residuals, const Matrix& jacobian, const Vector& step,
+                    const Vector& there) {
+  return std::sqrt((there - residuals - jacobian * step).squaredNorm() /
+                   double(std::max<Eigen::Index>(1, there.size())));
+}
+
 double nonlinearity(const ObjectivePoint& here, const ObjectivePoint& there) {
-  const Vector foretold =
-      here.residuals.values + here.jacobian * (there.activations - here.activations);
-  return std::sqrt((there.residuals.values - foretold).squaredNorm() /
-                   double(std::max<Eigen::Index>(1, foretold.size())));
+  return nonlinearity(here.residuals.values, here.jacobian, there.activations - here.activations,
+                      there.residuals.values);
 }
 
 std::vector<JointForce> joint_forces(const ActingPosterior& posterior,

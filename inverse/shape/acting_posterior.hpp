@@ -25,9 +25,22 @@ Matrix residual_covariance(const Residuals& residuals, const ModelError& error, 
 ActingPosterior acting_posterior(const ObjectivePoint& point, const std::vector<Unknown>& unknowns,
                                  const PriorTerms& prior, const ModelError& error, double way);
 
+/// The same of a density over the unknowns that `prior` leaves open, effort among its terms, where
+/// it is not a single shape's. `way` as above: it spreads the forces.
+ActingPosterior acting_posterior(QuadraticDensity density, const std::vector<Unknown>& unknowns,
+                                 const PriorTerms& prior, const ModelError& error, double way);
+
+/// A derivative that foretells residuals to this many standard deviations a row changes no
+/// posterior, and one that does not is taken again so often.
+constexpr double straight = 0.1;
+constexpr int most_turns = 2;
+
 /// How far the residuals at `there` are from what the derivative at `here` foretells, in standard
 /// deviations a row (root mean square).
 double nonlinearity(const ObjectivePoint& here, const ObjectivePoint& there);
+/// The same after a step from where residuals and their derivative are known.
+double nonlinearity(const Vector& residuals, const Matrix& jacobian, const Vector& step,
+                    const Vector& there);
 
 /// Pairs of muscles of which at least one surely acts, though neither does surely, likeliest first.
 std::vector<JointForce> joint_forces(const ActingPosterior& posterior,

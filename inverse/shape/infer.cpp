@@ -38,7 +38,14 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
 
   Answer answer;
   const auto descent = [&](DescentOptions how) {
-    how.progress = options.progress;
+    how.progress = [&](int step, double rms) {
+      if (options.progress) options.progress(step, rms);
+      const auto* point = options.improved ? objective.latest() : nullptr;
+      if (!point) return;
+      Answer so_far;
+      set_best_so_far(objective.unknowns(), objective.prior(), *point, so_far);
+      options.improved(so_far);
+    };
     const DescentResult r = options.finite_differences
                                 ? descend_by_differences(objective, start, how)
                                 : descend(objective, start, how);
@@ -70,8 +77,16 @@ Answer infer(const Model& model, const Target& target, const Prior& prior, Works
       answer.message = objective.last_failure();
     }
   }
-  if (answer.status == InferStatus::deadline) answer.message = "the deadline passed";
-  if (answer.status == InferStatus::cancelled) answer.message = "cancelled by the requester";
+  if (objective.stopped() && answer.status != InferStatus::converged) {
+    answer.message = answer.status == InferStatus::deadline ? "the deadline passed"
+                                                            : "cancelled by the requester";
+    if (const auto* point = objective.latest()) {
+      set_best_so_far(objective.unknowns(), objective.prior(), *point, answer);
+      answer.message += "; this is the best shape so far, without intervals";
+    } else {
+      answer.message += " before the first step was done";
+    }
+  }
   answer.factorizations = objective.factorizations();
   answer.forward_solves = objective.forward_solves();
   answer.wall_s = objective.seconds();

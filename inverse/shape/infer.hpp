@@ -17,6 +17,7 @@
 namespace genio {
 
 struct ActingPosterior;
+struct Answer;
 
 struct InferOptions {
   std::optional<bool> bilateral;  ///< unset: left and right together for midsagittal targets
@@ -39,8 +40,12 @@ struct InferOptions {
   bool finite_differences = false;
   std::function<bool()> cancelled;  ///< asked between steps; true ends the work
   std::function<void(int iteration, double rms)> progress;  ///< rms in m
+  /// Told of the answer as it is after each step: best fit, shape and distances, no posterior.
+  std::function<void(const Answer& so_far)> improved;
 };
 
+/// `deadline`, `cancelled`: the work was cut short, and the answer is the best so far. It has no
+/// intervals, unless another start had ended before; its shape is empty where no step was done.
 enum class InferStatus { converged, deadline, cancelled, failed };
 
 const char* to_string(InferStatus status);

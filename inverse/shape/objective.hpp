@@ -38,6 +38,8 @@ class Objective final : public MisfitProblem {
   const PriorTerms& prior() const { return prior_; }
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
 
+  /// The latest point with derivatives, which is where a descent stands; nullptr: there was none.
+  const ObjectivePoint* latest() const { return have_anchor_ ? &anchor_ : nullptr; }
   /// nullptr where no equilibrium was found or the time is up.
   const ObjectivePoint* at(const Vector& activations);
   /// As at(), with the derivatives.

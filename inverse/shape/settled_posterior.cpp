@@ -3,12 +3,6 @@
 #include <cmath>
 
 namespace genio {
-namespace {
-
-constexpr int most_turns = 2;     // derivatives taken again
-constexpr double straight = 0.1;  // standard deviations a row that do not change a posterior
-
-}  // namespace
 
 double displacement_from_rest(const Comparison& comparison, const Positions& x) {
   const auto& nodes = comparison.line().nodes();

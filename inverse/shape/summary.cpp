@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "inverse/posterior/box_integral.hpp"
 #include "inverse/shape/mirrored.hpp"
@@ -60,6 +61,21 @@ void set_estimates(const std::vector<Unknown>& unknowns, const PriorTerms& prior
     (c.kind == Unknown::Kind::muscle ? answer.muscles : answer.others).push_back(std::move(e));
   }
   answer.joint = joint_forces(posterior, unknowns);
+}
+
+void set_best_so_far(const std::vector<Unknown>& unknowns, const PriorTerms& prior,
+                     const ObjectivePoint& point, Answer& answer) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  set_optimum(point, answer);
+  answer.chi2_per_dof = unknown;
+  answer.muscles.clear(), answer.others.clear();
+  for (Eigen::Index i = 0; i < point.activations.size(); ++i) {
+    const Unknown& c = unknowns[size_t(i)];
+    Estimate e{c.name, c.value(point.activations[i]), c.scale, c.unit, c.kind};
+    e.sd = e.low = e.high = unknown;
+    e.fixed = prior.fixed(i);
+    (c.kind == Unknown::Kind::muscle ? answer.muscles : answer.others).push_back(std::move(e));
+  }
 }
 
 namespace {

@@ -15,6 +15,10 @@ LocalPosterior local_posterior(const Objective& objective, const ObjectivePoint&
 void set_estimates(const std::vector<Unknown>& unknowns, const PriorTerms& prior,
                    const ActingPosterior& posterior, const Vector& z, Answer& answer);
 
+/// Fills `answer` with a point that is no optimum yet: forces without intervals.
+void set_best_so_far(const std::vector<Unknown>& unknowns, const PriorTerms& prior,
+                     const ObjectivePoint& point, Answer& answer);
+
 /// Fills estimates, unidentified groups, chi2, verdict and evidence of `answer` from the optimum's
 /// derivatives.
 ///

@@ -16,7 +16,7 @@ namespace genio {
 struct ModelError {
   /// Of what a fit cannot absorb, for the verdict: of each place's own way, alike over a short
   /// length. What meshes, fibres and tissue laws do was measured so, see docs/inversion-method.md.
-  double left = 0.06, left_length = 4e-3;
+  double left = 0.08, left_length = 4e-3;
   double left_of_another = 0;  ///< and of the line's way, with `length`: another speaker's anatomy
   double length = 0.012;       ///< over which that is alike [m]
   double least = 1e-4;         ///< of any field [m]
@@ -32,8 +32,6 @@ struct ModelError {
     other.efficacy_sd = 0.8, other.left_of_another = 0.05;
     return other;
   }
-  // For a movement, whose posterior is a Gaussian, set by `genio bench blind`.
-  double part = 0.33;  ///< with `length`
 };
 
 /// Noise-weighted residuals and their derivatives.

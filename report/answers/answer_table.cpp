@@ -66,15 +66,20 @@ std::string to_table(const AnswerView& v) {
     out += fmt::format("{:<8} {:>7} {:>9}   {:<17} {:10.2f} {:7.1f}\n", c.name,
                        std::isfinite(c.acts) ? percent_text(c.acts) : "-",
                        std::isfinite(c.median) ? fmt::format("{:.2f}", c.median) : "-",
-                       fmt::format("{:.2f} to {:.2f}", c.low, c.high), c.best,
+                       std::isfinite(c.low) ? fmt::format("{:.2f} to {:.2f}", c.low, c.high) : "-",
+                       c.best,
                        100 * c.best / c.maximum);
   out += acting_text(v);
   for (const auto& c : v.others)
-    out += fmt::format("{:<18} {:.3g} +- {:.2g} {}   {:.3g} to {:.3g}\n", c.name, c.best, c.sd,
-                       c.unit, c.low, c.high);
+    out += std::isfinite(c.low)
+               ? fmt::format("{:<18} {:.3g} +- {:.2g} {}   {:.3g} to {:.3g}\n", c.name, c.best,
+                             c.sd, c.unit, c.low, c.high)
+               : fmt::format("{:<18} {:.3g} {}\n", c.name, c.best, c.unit);
   if (!v.muscles.empty())
-    out += fmt::format("fit      RMS {:.2f} mm, max {:.2f} mm, chi2/dof {:.2f}\n", v.rms_mm,
-                       v.max_mm, v.chi2_per_dof);
+    out += fmt::format("fit      RMS {:.2f} mm, max {:.2f} mm{}\n", v.rms_mm, v.max_mm,
+                       std::isfinite(v.chi2_per_dof)
+                           ? fmt::format(", chi2/dof {:.2f}", v.chi2_per_dof)
+                           : "");
   for (const auto& group : told_once(v.unidentified))
     out += fmt::format("unseen   the data {}: {}\n",
                        group.size() > 1 ? "cannot tell apart" : "say little about",

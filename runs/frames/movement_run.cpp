@@ -10,6 +10,11 @@ namespace {
 
 constexpr double lead = 0.1;  // of a movement before its first frame [s]
 
+size_t nearest_knot(const MotionAnswer& a, double time_s) {
+  const auto off = [&](double knot) { return std::abs(knot - time_s); };
+  return size_t(std::ranges::min_element(a.knots_s, {}, off) - a.knots_s.begin());
+}
+
 Answer answer_at(const MotionAnswer& a, size_t frame) {
   Answer result;
   result.status = a.status, result.verdict = a.verdict, result.message = a.message;
@@ -22,6 +27,7 @@ Answer answer_at(const MotionAnswer& a, size_t frame) {
   result.chi2_per_dof = a.chi2_per_dof;
   for (Estimate& e : commands_at(a, f.time_s))
     (e.kind == Unknown::Kind::muscle ? result.muscles : result.others).push_back(std::move(e));
+  result.joint = a.joint[nearest_knot(a, f.time_s)];
   return result;
 }
 
@@ -47,6 +53,12 @@ std::vector<Estimate> commands_at(const MotionAnswer& a, double time_s) {
     between(before.median, result[c].median), between(before.mean, result[c].mean);
     between(before.low, result[c].low), between(before.high, result[c].high);
     between(before.information_bits, result[c].information_bits);
+    // Between two knots a muscle pulls unless it rests at both; of a fixed force no probability is
+    // told, and a start at rest is one.
+    const auto acts = [](const Estimate& e) { return e.fixed ? double(e.best > 0) : e.acts; };
+    if (s == 0) result[c].acts = before.acts;
+    else if (s < 1 && !(before.fixed && result[c].fixed))
+      result[c].acts = std::max(acts(before), acts(result[c]));
   }
   return result;
 }

@@ -68,6 +68,45 @@ TEST(MotionSensitivity, IsTheDerivativeOfTheMotion) {
   EXPECT_GT(exact[0].col(4).norm(), 0);
 }
 
+// A damped contact that the tongue hits adds more to the tangent than what is factorised. Its
+// iteration once grew by a factor of ten a step, up to 10^34, in silence.
+TEST(MotionSensitivity, HoldsWhereTheTongueHitsABone) {
+  ModelDescription d = test::small_block();
+  d.effects["elasticity"] = {{"a10", 1037}, {"a20", 486}, {"kappa", 1e6}};
+  d.effects["palate_contact"] = {{"stiffness", 3e6}, {"damping", 60}};
+  d.effects["viscosity"] = {{"alpha", 10}, {"beta", 0.002}};
+  const Model m = build_model(d, "block");
+  Workspace ws(m), own(m);
+  Controls controls{
+      {{{command_parameters(m, "GGP_L")[0], 1.0}, {command_parameters(m, "GGP_R")[0], 1.0}}},
+      {0, 0.004, 0.03}};
+  TimeOptions options;
+  options.duration = 0.03, options.step = 0.001, options.tolerance = 1e-10;
+  const Parameters base = default_parameters(m);
+  const auto at_rest = solve_equilibrium(m, base, m.rest, ws);
+  ASSERT_TRUE(at_rest) << at_rest.message;
+  const auto motion = [&](const Vector& values) {
+    return simulate(m, controls.over_time(values, base), at_rest.x, ws, options);
+  };
+  Vector u(3);
+  u << 0, 4, 4;
+  const Trajectory t = motion(u);
+  ASSERT_TRUE(t) << t.message;
+  double deepest = 0;
+  for (const Instant& i : t.instants) deepest = std::max(deepest, max_penetration(m, i.x, base));
+  ASSERT_GT(deepest, 1e-5) << "it touches nothing";
+  const auto exact = motion_sensitivity(m, controls, controls.over_time(u, base), t, options.scheme,
+                                        {}, {0.03}, own, 1e-10);
+  ASSERT_EQ(exact.size(), 1u);
+  double best = 1;
+  for (double h : {1e-4, 1e-5}) {
+    const Vector e = h * Vector::Unit(3, 2);
+    const Vector q = (motion(u + e).instants.back().x - motion(u - e).instants.back().x) / (2 * h);
+    best = std::min(best, (q - exact[0].col(2)).norm() / exact[0].col(2).norm());
+  }
+  EXPECT_LT(best, 1e-5);
+}
+
 TEST(MotionSensitivity, ForcesThatLagAreRefused) {
   const Model m = build_model(test::with_every_effect(), "block");
   Workspace ws(m);

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "forward/base/types.hpp"
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 
 namespace genio::test {

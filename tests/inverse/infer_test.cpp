@@ -144,6 +144,32 @@ TEST_F(Infer, DeadlineAndCancelEndTheWork) {
   EXPECT_EQ(infer(m, t, Prior{}, ws, cancel).status, InferStatus::cancelled);
 }
 
+TEST_F(Infer, WorkCutShortGivesTheBestSoFar) {
+  const Target t = pulled({{"GGP", 3}});
+  InferOptions cut;
+  int steps = 0;
+  std::vector<double> told;
+  cut.progress = [&](int, double) { ++steps; };
+  cut.improved = [&](const Answer& a) { told.push_back(a.rms); };
+  cut.cancelled = [&] { return steps > 3; };
+  const Answer a = infer(m, t, Prior{}, ws, cut);
+  EXPECT_EQ(a.status, InferStatus::cancelled);
+  EXPECT_FALSE(a.message.empty());
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(a.rms, told.back());
+  EXPECT_LT(told.back(), told.front());
+  ASSERT_EQ(a.muscles.size(), 11u);
+  double pull = 0;
+  for (const Estimate& e : a.muscles) {
+    pull += e.best;
+    EXPECT_TRUE(std::isnan(e.low)) << e.name << ": an interval was not computed";
+    EXPECT_TRUE(std::isnan(e.acts)) << e.name;
+  }
+  EXPECT_GT(pull, 0);
+  EXPECT_GT((a.shape - m.rest).cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_EQ(a.verdict, Verdict::none);
+}
+
 TEST_F(Infer, EmptyTargetIsTheCallersMistake) {
   EXPECT_THROW(infer(m, Target{}, Prior{}, ws), InputError);
 }

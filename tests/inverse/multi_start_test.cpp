@@ -52,6 +52,26 @@ TEST_F(MultiStart, AWorkspaceOutlivesItsModel) {
   EXPECT_NO_THROW(infer_from_starts(copy, pulled({{"GGP", 3}}), Prior{}, own, once, {1}));
 }
 
+// Once it read `converged`, as if nothing had been left undone.
+TEST_F(MultiStart, ASearchCutAfterAWholeDescentIsADeadlineWithIntervals) {
+  Target far = curve_target(m, m.rest, 30, 3e-4);
+  for (auto& p : far.curve) p.position += Vec2(-0.012, -0.012);
+  int starts = 0;
+  InferOptions cut;
+  cut.progress = [&](int step, double) { starts += step == 0; };
+  cut.cancelled = [&] { return starts > 3; };  // the first has a rough descent and a fine one
+  std::vector<double> told;
+  cut.improved = [&](const Answer& a) { told.push_back(double(a.shape.size())); };
+  const Answer a = infer_from_starts(m, far, Prior{}, all, cut);
+  EXPECT_EQ(a.status, InferStatus::cancelled) << a.message;
+  EXPECT_NE(a.message.find("starts"), std::string::npos) << a.message;
+  EXPECT_NE(a.verdict, Verdict::none);
+  for (const Estimate& e : a.muscles) EXPECT_TRUE(std::isfinite(e.high)) << e.name;
+  // What is told along is of the whole tongue, though half of it is solved.
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.front(), double(m.rest.size()));
+}
+
 TEST_F(MultiStart, ADeadlineBeforeTheFirstStartIsADeadline) {
   InferOptions soon;
   soon.deadline_s = 1e-9;

@@ -114,11 +114,20 @@ TEST_F(Sequence, AMovementIsFoundAgain) {
   EXPECT_LT(1e3 * a.rms, 0.1);
   ASSERT_EQ(a.knots_s, (std::vector<double>{0, 0.025, 0.05}));
   for (const auto& e : a.estimates[0]) EXPECT_EQ(e.best, 0);
-  for (const auto& e : a.estimates[2])
+  // Each knot says of each muscle whether it acts, and the interval of one that may rest is from 0.
+  double of_resting = 0, resting = 0;
+  for (const auto& e : a.estimates[2]) {
     if (e.name == "GGP") {
+      EXPECT_GT(e.acts, 0.6);
       EXPECT_LE(e.low, 3);
       EXPECT_GE(e.high, 3);
+    } else if (e.name != "SL") {
+      of_resting += e.acts, ++resting;
+      EXPECT_EQ(e.low, 0) << e.name;
     }
+  }
+  EXPECT_LT(of_resting / resting, 0.4);
+  EXPECT_EQ(a.joint.size(), a.knots_s.size());
   // Commands in, the same motion out, on the whole tongue.
   CommandsOverTime found;
   for (size_t j = 0; j < a.knots_s.size(); ++j) {

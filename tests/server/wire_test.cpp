@@ -1,4 +1,4 @@
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,8 @@ TEST(Wire, EveryTruncationAndTrailingByteIsRefused) {
 
 TEST(Wire, ClaimedLengthsAreNotBelieved) {
   const auto good = encode(sample_request());
-  const size_t count_at = 8 + 8 + (4 + 2) + (4 + 2);  // fingerprint, utime, id, client
+  // fingerprint, utime, id, client, model
+  const size_t count_at = 8 + 8 + (4 + 2) + (4 + 2) + (4 + 1);
   std::string why;
   for (uint32_t claim : {0x20000000u, 0x7fffffffu, 0xffffffffu, 0x80000000u, 3u, 1u}) {
     auto bytes = good;

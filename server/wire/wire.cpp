@@ -1,4 +1,4 @@
-#include "server/wire.hpp"
+#include "server/wire/wire.hpp"
 
 #include <chrono>
 
@@ -17,7 +17,9 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
   const auto skip = [&](size_t n) { return size - at >= n && (at += n, true); };
   const auto skip_string = [&] {
     int32_t length = 0;
-    if (!read_int(length) || length < 1 || size_t(length) > size - at) return false;
+    if (!read_int(length) || length < 1 || length > max_string_length + 1 ||
+        size_t(length) > size - at)
+      return false;
     at += size_t(length);
     return data[at - 1] == 0;
   };
@@ -42,6 +44,9 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
         if (good && (count < 0 || count > max_array_length))
           return "an array claims " + std::to_string(count) + " entries; expected 0 to " +
                  std::to_string(max_array_length);
+        break;
+      case 'I':
+        good = skip(4 * size_t(count));
         break;
       case 'D':
         good = skip(8 * size_t(count));

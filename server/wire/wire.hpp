@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "genio/ack_t.hpp"
 #include "genio/cancel_t.hpp"
 #include "genio/command_reply_t.hpp"
 #include "genio/progress_t.hpp"
@@ -17,18 +18,19 @@ namespace genio {
 
 inline constexpr size_t max_message_bytes = 4u << 20;
 inline constexpr int max_array_length = 20000;
+inline constexpr int max_string_length = 1 << 16;  ///< bytes
 
 /// Fields of a message in order: l int64, i int32, b int8, d double, s string, n int32 that counts
-/// the arrays after it, D double[n], S string[n].
+/// the arrays after it, D double[n], I int32[n], S string[n].
 template <class T>
 struct WireLayout;
 template <>
 struct WireLayout<shape_request_t> {
-  static constexpr const char* fields = "lssnDDDDSddbi";
+  static constexpr const char* fields = "lsssnDDDDSddbi";
 };
 template <>
 struct WireLayout<command_reply_t> {
-  static constexpr const char* fields = "lssssnSDDDDDDDDnSnSDDDdddiidnDDdnDDnD";
+  static constexpr const char* fields = "lsssdsnSDDDDDDDDDdinISDnSnSDDDdddiidnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {
@@ -36,7 +38,11 @@ struct WireLayout<progress_t> {
 };
 template <>
 struct WireLayout<cancel_t> {
-  static constexpr const char* fields = "ls";
+  static constexpr const char* fields = "lss";
+};
+template <>
+struct WireLayout<ack_t> {
+  static constexpr const char* fields = "lss";
 };
 template <>
 struct WireLayout<server_status_t> {

@@ -1,0 +1,14 @@
+#pragma once
+#include <cstddef>
+
+namespace genio {
+
+/// What is kept for clients at most.
+struct DispatchLimits {
+  int waiting = 256;                    ///< requests; more are refused with a reply
+  size_t waiting_bytes = 64u << 20;     ///< of them all, as they came
+  int remembered = 4096;                ///< replies kept for repeated ids
+  size_t remembered_bytes = 64u << 20;  ///< of them all
+};
+
+}  // namespace genio

@@ -1,0 +1,30 @@
+#pragma once
+// The messages that no computation makes.
+
+#include <string>
+#include <vector>
+
+#include "server/wire/wire.hpp"
+
+namespace genio {
+
+/// A message that is to be published.
+struct OutgoingMessage {
+  std::string channel;
+  std::vector<uint8_t> bytes;
+  std::string acknowledges = {};  ///< id of the request that it says was taken
+};
+
+/// A reply without an answer. `retry_after_s`: when to ask again; 0: never the same.
+command_reply_t reply_without_answer(const std::string& id, const char* status,
+                                     const std::string& reason, double retry_after_s = 0);
+
+/// `rms` [m].
+progress_t progress_of(const std::string& id, const char* stage, int iteration, double rms);
+
+/// Replies to a client of an earlier version in the types that it knows, which say that it is too
+/// old: all that have gone with that request. Empty where the fingerprint is of no earlier version.
+std::vector<std::vector<uint8_t>> replies_of_earlier_versions(const void* request, size_t size,
+                                                              const std::string& id);
+
+}  // namespace genio

@@ -1,0 +1,123 @@
+#include "server/journalled.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "server/dispatch/dispatcher.hpp"
+#include "server/wire/wire.hpp"
+#include "tests/runs/temporary_folder.hpp"
+
+namespace genio {
+namespace {
+
+/// One life of a server: its journal and its dispatcher.
+struct Life {
+  explicit Life(const std::string& path)
+      : journal(path),
+        dispatcher({}, {}, {[this](const std::string& id) { return known_request(journal, id); }}) {
+    for (const JournalEntry& entry : journal.unanswered())
+      dispatcher.resume(accepted_record(entry), entry.tries);
+  }
+  void ask(const std::string& id, double sigma_mm = 0.5, const std::string& client = "c") {
+    shape_request_t r{};
+    r.id = id, r.client = client, r.default_sigma_mm = sigma_mm;
+    const auto bytes = encode(r);
+    dispatcher.receive_request(bytes.data(), bytes.size(), now_us());
+  }
+  void answer(const std::string& id, const char* status = "converged") {
+    command_reply_t reply{};
+    reply.id = id, reply.status = status, reply.rms_mm = 0.25;
+    dispatcher.finish(id, reply, 0.1);
+  }
+  /// Keeps the records as the service does; the replies that may be published then.
+  std::vector<command_reply_t> turn() {
+    Outgoing outgoing = dispatcher.take_outgoing();
+    EXPECT_TRUE(write_records(journal, outgoing.records, now_us()).empty());
+    std::vector<command_reply_t> replies;
+    for (const OutgoingMessage& m : outgoing.messages) {
+      std::string why;
+      if (!m.channel.starts_with("GENIO_REPLY.")) continue;
+      const auto reply = decode_checked<command_reply_t>(m.bytes.data(), m.bytes.size(), why);
+      EXPECT_TRUE(reply) << why;
+      if (reply) replies.push_back(*reply);
+    }
+    return replies;
+  }
+
+  Journal journal;
+  Dispatcher dispatcher;
+};
+
+class Journalled : public testing::Test {
+ protected:
+  void live() {
+    life.reset();  // as a kill would: what was not kept is gone
+    life = std::make_unique<Life>(folder.path() + "/journal");
+  }
+  const test::TemporaryFolder folder;
+  std::unique_ptr<Life> life;
+};
+
+TEST_F(Journalled, WhatWasAcceptedIsTakenUpByTheNextServer) {
+  live(), life->ask("a"), life->ask("b"), life->turn();
+  live();
+  EXPECT_EQ(life->dispatcher.counts().queued, 2);
+  EXPECT_EQ(life->dispatcher.next()->request.id, "a");
+  life->answer("a");
+  ASSERT_EQ(life->turn().size(), 1u);
+  live();
+  EXPECT_EQ(life->dispatcher.next()->request.id, "b");
+}
+
+TEST_F(Journalled, WhatWasAnsweredIsNotComputedAgain) {
+  live(), life->ask("a"), life->dispatcher.next(), life->answer("a"), life->turn();
+  live(), life->ask("a", 0.5, "another");
+  EXPECT_EQ(life->dispatcher.counts().queued, 0);
+  const auto replies = life->turn();
+  ASSERT_EQ(replies.size(), 1u);
+  EXPECT_EQ(replies[0].rms_mm, 0.25);
+  life->ask("a", 0.6);
+  EXPECT_EQ(life->turn().at(0).status, "refused");
+}
+
+TEST_F(Journalled, AComputationThatEndsTheServerTwiceIsAnsweredAsFailed) {
+  live(), life->ask("a"), life->turn();
+  for (int tries = 0; tries < 2; ++tries) {
+    ASSERT_EQ(life->dispatcher.counts().queued, 1) << tries;
+    life->dispatcher.next(), life->turn();
+    live();
+  }
+  EXPECT_EQ(life->dispatcher.counts().queued, 0);
+  EXPECT_EQ(life->turn().at(0).status, "failed");
+  live(), life->ask("a");
+  EXPECT_EQ(life->turn().at(0).status, "failed");
+}
+
+TEST_F(Journalled, AStopInGoodOrderIsNoTryAndRefusesNobody) {
+  live(), life->ask("a"), life->ask("b"), life->turn();
+  for (int stops = 0; stops < 3; ++stops) {
+    ASSERT_EQ(life->dispatcher.next()->request.id, "a");
+    life->turn();
+    life->dispatcher.close();
+    life->answer("a", "cancelled");
+    life->dispatcher.refuse_waiting();
+    EXPECT_TRUE(life->turn().empty());
+    live();
+    EXPECT_EQ(life->dispatcher.counts().queued, 2);
+  }
+}
+
+TEST_F(Journalled, AnAcknowledgedReplyCountsAsDelivered) {
+  live(), life->ask("a"), life->dispatcher.next(), life->answer("a"), life->turn();
+  EXPECT_EQ(life->journal.counts().delivered, 0);
+  ack_t ack{};
+  ack.id = "a", ack.client = "c";
+  const auto bytes = encode(ack);
+  life->dispatcher.receive_ack(bytes.data(), bytes.size());
+  life->turn();
+  EXPECT_EQ(life->journal.counts().delivered, 1);
+}
+
+}  // namespace
+}  // namespace genio
