@@ -11,6 +11,7 @@ find_package(Threads REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers of Boost.Math
 pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)
 pkg_check_modules(LCM REQUIRED IMPORTED_TARGET lcm)
+pkg_check_modules(RE2 REQUIRED IMPORTED_TARGET re2)
 pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
 pkg_check_modules(RSVG REQUIRED IMPORTED_TARGET librsvg-2.0)
 pkg_check_modules(MATIO REQUIRED IMPORTED_TARGET matio)

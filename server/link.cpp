@@ -1,8 +1,8 @@
 #include "server/link.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <lcm/lcm.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
@@ -14,29 +14,16 @@
 #include <chrono>
 #include <cstdlib>
 #include <optional>
-#include <regex>
 #include <thread>
 
 #include "forward/base/types.hpp"
+#include "server/hub/protocol/tcpq.hpp"
 #include "server/silenced.hpp"
+#include "server/tcp_address.hpp"
 
 namespace genio {
 
 namespace {
-
-struct TcpAddress {
-  std::string host, port;
-};
-
-/// Of "tcpq://HOST:PORT", both of which may be left out; nothing for what is no such URL.
-std::optional<TcpAddress> tcp_address(const std::string& url) {
-  static const std::regex pattern(R"(tcpq://([^:/?\s]*)(?::(\d{1,5}))?/?(?:\?.*)?)");
-  std::smatch m;
-  if (!std::regex_match(url, m, pattern)) return std::nullopt;
-  const int port = m[2].matched ? std::stoi(m[2]) : 7700;
-  if (port < 1 || port > 65535) return std::nullopt;
-  return TcpAddress{m[1].length() > 0 ? m[1].str() : "127.0.0.1", std::to_string(port)};
-}
 
 /// True where the socket becomes ready for `events` in time.
 bool ready(int fd, short events, int longest_ms) {
@@ -44,26 +31,31 @@ bool ready(int fd, short events, int longest_ms) {
   return poll(&polled, 1, longest_ms) == 1 && (polled.revents & events);
 }
 
-/// True where a hub greets back, as in lcm_tcpq.c: LCM itself would wait for that without end.
+/// True where a hub greets back: LCM itself would wait for that without end.
 bool greets(int fd, int longest_ms) {
-  constexpr unsigned char greeting[] = {0x28, 0x76, 0x17, 0xfb, 0, 0, 1, 0};
-  constexpr unsigned char expected[] = {0x28, 0x76, 0x17, 0xfa};
-  if (send(fd, greeting, sizeof greeting, MSG_NOSIGNAL) != sizeof greeting) return false;
-  unsigned char answer[8];
+  const std::vector<char> greeting = tcpq::greeting(tcpq::client_mark);
+  const auto sent = send(fd, greeting.data(), greeting.size(), MSG_NOSIGNAL);
+  if (sent != ssize_t(greeting.size())) return false;
+  std::vector<char> answer(tcpq::greeting_bytes);
   size_t got = 0;
-  while (got < sizeof answer && ready(fd, POLLIN, longest_ms)) {
-    const auto n = recv(fd, answer + got, sizeof answer - got, 0);
+  while (got < answer.size() && ready(fd, POLLIN, longest_ms)) {
+    const auto n = recv(fd, answer.data() + got, answer.size() - got, 0);
     if (n <= 0) return false;
     got += size_t(n);
   }
-  return got == sizeof answer && std::equal(std::begin(expected), std::end(expected), answer);
+  return got == answer.size() && tcpq::word_at(answer, 0) == tcpq::server_mark;
 }
 
-bool answers(const addrinfo& address) {
+/// True where a hub listens there.
+bool answers(const std::string& host, uint16_t port) {
   constexpr int longest_ms = 1000;
-  const int fd = socket(address.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;  // as LCM
+  address.sin_port = htons(port);
+  if (inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1) return false;
+  const int fd = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (fd < 0) return false;
-  bool good = ::connect(fd, address.ai_addr, address.ai_addrlen) == 0;
+  bool good = ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   if (!good && errno == EINPROGRESS) {
     int error = 0;
     socklen_t size = sizeof error;
@@ -72,18 +64,6 @@ bool answers(const addrinfo& address) {
   }
   good = good && greets(fd, longest_ms);
   close(fd);
-  return good;
-}
-
-/// True where a hub listens there.
-bool answers(const TcpAddress& address) {
-  addrinfo wanted{}, *found = nullptr;
-  wanted.ai_family = AF_INET;  // as LCM
-  wanted.ai_socktype = SOCK_STREAM;
-  if (getaddrinfo(address.host.c_str(), address.port.c_str(), &wanted, &found) != 0) return false;
-  bool good = false;
-  for (const addrinfo* a = found; a && !good; a = a->ai_next) good = answers(*a);
-  freeaddrinfo(found);
   return good;
 }
 
@@ -126,26 +106,18 @@ std::string choose_url(const std::string& option) {
   return url && *url ? url : default_url;
 }
 
-uint16_t local_tcpq_port(const std::string& url) {
-  static const std::regex pattern(R"(tcpq://(127\.0\.0\.1|localhost)?(?::(\d{1,5}))?/?)");
-  std::smatch m;
-  if (!std::regex_match(url, m, pattern)) return 0;
-  const int port = m[2].matched ? std::stoi(m[2]) : 7700;
-  return port > 0 && port < 65536 ? uint16_t(port) : 0;
-}
-
 Link::Link(const std::string& url) : url_(url), tcp_(url.starts_with("tcpq")) {
   if (tcp_ && !tcp_address(url)) refuse_url(url);
   if (tcp_) connect();
-  else create();
+  else create(url_);
 }
 
 bool Link::connected() const { return lcm_ && (!tcp_ || lcm_get_fileno(lcm_) >= 0); }
 
-void Link::create() {
+void Link::create(const std::string& url) {
   {
     const Silenced lcm;
-    lcm_ = lcm_create(url_.c_str());
+    lcm_ = lcm_create(url.c_str());
   }
   if (!lcm_) refuse_url(url_);
   for (Subscription& s : subscriptions_) s.subscribe(lcm_);
@@ -154,10 +126,13 @@ void Link::create() {
 
 bool Link::connect() {
   if (connected()) return true;
+  // LCM takes every name that it cannot read for this host, so it gets the address.
+  const TcpAddress address = tcp_address(url_).value();
+  const auto host = numeric_host(address.host);
   // LCM may wait for minutes where nobody answers.
-  if (!answers(tcp_address(url_).value())) return false;
+  if (!host || !answers(*host, address.port)) return false;
   if (!lcm_) {
-    create();
+    create(fmt::format("tcpq://{}:{}", *host, address.port));
   } else {
     // LCM reconnects, and subscribes again, when something is published.
     const Silenced lcm;

@@ -1,6 +1,7 @@
 #pragma once
 // One LCM connection, owned by one thread, that survives what LCM 1.3.1 does not.
 
+#include <cstdint>
 #include <functional>
 #include <list>
 #include <string>
@@ -14,9 +15,6 @@ inline constexpr const char* default_url = "tcpq://127.0.0.1:7700";
 
 /// --lcm, else LCM_DEFAULT_URL, else default_url.
 std::string choose_url(const std::string& option);
-
-/// Port of a tcpq URL on this host ("tcpq://127.0.0.1:7700" gives 7700); 0 for any other URL.
-uint16_t local_tcpq_port(const std::string& url);
 
 class Link {
  public:
@@ -39,7 +37,7 @@ class Link {
  private:
   struct Subscription;
   void tune();
-  void create();
+  void create(const std::string& url);
   bool connect();
 
   std::string url_;

@@ -10,7 +10,7 @@
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "server/client.hpp"
-#include "server/hub.hpp"
+#include "server/hub/hub.hpp"
 #include "server/service.hpp"
 
 namespace genio::bench {

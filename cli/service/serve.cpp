@@ -2,18 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <csignal>
 #include <memory>
 
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
-#include "server/hub.hpp"
+#include "server/hub/hub.hpp"
 #include "server/link.hpp"
 #include "server/service.hpp"
+#include "server/tcp_address.hpp"
 
 namespace genio::cli {
 namespace {
+
+// For the last replies to reach those who wait for them.
+constexpr std::chrono::seconds longest_flush{3};
 
 std::atomic<bool> stop_requested{false};
 
@@ -52,6 +57,7 @@ Runner add_serve(Options& options) {
                    ? "; without --journal, requests that wait are lost if this process is killed"
                    : "");
     serve(m, service, stop_requested);
+    if (hub) hub->flush(longest_flush);
     return done;
   };
 }

@@ -1,0 +1,44 @@
+#include "server/hub/hub.hpp"
+
+#include <csignal>
+
+#include "server/hub/loop.hpp"
+
+namespace genio {
+namespace {
+
+/// While it lives, threads that are started get no signals: those are for the main thread.
+class SignalsBlocked {
+ public:
+  SignalsBlocked() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
+
+Hub::Hub(uint16_t port, const HubLimits& limits)
+    : loop_(std::make_unique<HubLoop>(port, limits)), port_(loop_->port()) {
+  const SignalsBlocked signals;
+  thread_ = std::thread([this] { loop_->run(); });
+}
+
+Hub::~Hub() { flush(std::chrono::milliseconds(0)); }
+
+HubCounts Hub::counts() const { return loop_->counts(); }
+
+void Hub::flush(std::chrono::milliseconds longest) {
+  if (!thread_.joinable()) return;
+  loop_->finish(HubClock::now() + longest);
+  thread_.join();
+}
+
+}  // namespace genio

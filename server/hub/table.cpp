@@ -1,0 +1,151 @@
+#include "server/hub/table.hpp"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/hub/protocol/tcpq.hpp"
+
+namespace genio {
+namespace {
+
+/// Half of the process's descriptors at most: the service and its files need some too.
+size_t affordable_connections(size_t wanted) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    wanted = std::min<size_t>(wanted, limit.rlim_cur / 2);
+  return std::max<size_t>(wanted, 1);
+}
+
+}  // namespace
+
+/// The one of greatest weight; none where all weigh nothing.
+template <class Weight>
+HubConnection* HubTable::heaviest(const Weight& weight) {
+  HubConnection* found = nullptr;
+  double most = 0;
+  for (auto& [id, c] : connections_) {
+    const double w = c.ended ? 0 : weight(c);
+    if (w > most) found = &c, most = w;
+  }
+  return found;
+}
+
+HubTable::HubTable(const HubLimits& limits) : limits_(limits) {
+  limits_.connections = affordable_connections(limits.connections);
+}
+
+HubConnection& HubTable::admit(Descriptor socket, HubTime now) {
+  const auto stay = [](const auto& entry) { return !entry.second.ended; };
+  const auto present = size_t(std::count_if(connections_.begin(), connections_.end(), stay));
+  if (present >= limits_.connections) drop_least_useful(HubDrop::displaced, now);
+  const uint64_t id = next_id_++;
+  const auto place = connections_.try_emplace(id, id, std::move(socket), limits_, held_, now).first;
+  HubConnection& connection = place->second;
+  try {
+    connection.backlog.push(
+        std::make_shared<const HubMessage>(tcpq::greeting(tcpq::server_mark), held_));
+  } catch (...) {
+    connections_.erase(place);
+    throw;
+  }
+  connection.standing.backlog_bytes = connection.backlog.bytes();
+  ++counts_.accepted;
+  return connection;
+}
+
+HubConnection* HubTable::find(uint64_t id) {
+  const auto found = connections_.find(id);
+  return found == connections_.end() ? nullptr : &found->second;
+}
+
+void HubTable::end(HubConnection& c) {
+  if (std::exchange(c.ended, true)) return;
+  partial_ -= std::exchange(c.standing.partial_bytes, 0);
+  c.backlog.clear();
+  c.standing.backlog_bytes = 0;
+  c.standing.partial = false;
+  c.subscriptions.clear();
+  c.parser.abandon();
+  c.unread = std::vector<char>();  // gives the memory back, as {} would not
+}
+
+void HubTable::drop(HubConnection& c, HubDrop why) {
+  if (c.ended) return;
+  ++counts_.dropped(why);
+  end(c);
+}
+
+HubConnection* HubTable::least_useful(HubTime now) {
+  HubConnection* found = nullptr;
+  for (auto& [id, c] : connections_)
+    if (!c.ended && (!found || less_useful(c.standing, found->standing, now))) found = &c;
+  return found;
+}
+
+bool HubTable::drop_least_useful(HubDrop why, HubTime now) {
+  HubConnection* const c = least_useful(now);
+  if (c) drop(*c, why);
+  return c;
+}
+
+bool HubTable::drop_heaviest(HubDrop why) {
+  HubConnection* const c = heaviest([](const HubConnection& k) {
+    return double(1 + k.standing.partial_bytes + k.backlog.bytes());
+  });
+  if (c) drop(*c, why);
+  return c;
+}
+
+void HubTable::set_partial(HubConnection& c, HubTime now) {
+  if (c.ended) return;
+  HubStanding& s = c.standing;
+  if (!s.partial) s.partial_began = now;
+  s.partial_grew = now;
+  s.partial = c.parser.partial();
+  partial_ -= s.partial_bytes;
+  s.partial_bytes = c.parser.held() + c.unread.capacity();
+  partial_ += s.partial_bytes;
+  const auto burden = [&](const HubConnection& k) { return partial_burden(k.standing, now); };
+  while (partial_ > limits_.partial_bytes)
+    if (HubConnection* const worst = heaviest(burden)) drop(*worst, HubDrop::stalled);
+    else break;
+}
+
+void HubTable::keep_queue_small() {
+  const auto waiting = [](const HubConnection& k) { return double(k.backlog.bytes()); };
+  while (held_ > limits_.queued_bytes)
+    if (HubConnection* const worst = heaviest(waiting)) drop(*worst, HubDrop::slow_reader);
+    else break;
+}
+
+size_t HubTable::pattern_cost() const {
+  size_t sum = 0;
+  for (const auto& [id, c] : connections_) sum += c.subscriptions.cost();
+  return sum;
+}
+
+void HubTable::keep_patterns_cheap() {
+  const auto cost = [](const HubConnection& k) { return double(k.subscriptions.cost()); };
+  while (pattern_cost() > limits_.program_cost)
+    if (HubConnection* const worst = heaviest(cost)) drop(*worst, HubDrop::refused_pattern);
+    else break;
+}
+
+void HubTable::remove_ended() {
+  std::erase_if(connections_, [](const auto& entry) { return entry.second.ended; });
+}
+
+HubCounts HubTable::counts() const {
+  HubCounts now = counts_;
+  now.queued_bytes = held_, now.partial_bytes = partial_;
+  for (const auto& [id, c] : connections_) {
+    if (c.ended) continue;
+    ++now.connections;
+    now.subscriptions += c.subscriptions.size();
+  }
+  return now;
+}
+
+}  // namespace genio

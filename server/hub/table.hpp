@@ -1,0 +1,64 @@
+#pragma once
+// The connections of a hub, and what they may take together.
+
+#include <map>
+
+#include "server/hub/connection.hpp"
+
+namespace genio {
+
+/// Owns the connections. Whoever is dropped loses what is held for it at once, and is removed at
+/// the end of the turn, so that references stay good until then.
+class HubTable {
+ public:
+  explicit HubTable(const HubLimits& limits);
+
+  /// Takes a new connection; where all places are taken, the least useful one is dropped. Throws
+  /// std::bad_alloc, and the new one is closed then.
+  HubConnection& admit(Descriptor socket, HubTime now);
+  HubConnection* find(uint64_t id);
+  std::map<uint64_t, HubConnection>& all() { return connections_; }
+  const std::map<uint64_t, HubConnection>& all() const { return connections_; }
+
+  /// Drops a connection and counts why. One that was dropped before stays as it is.
+  void drop(HubConnection& connection, HubDrop why);
+  /// The same for one whose other side is gone, which is no fault.
+  void end(HubConnection& connection);
+  /// False where there is none.
+  bool drop_least_useful(HubDrop why, HubTime now);
+  /// The one that takes most memory.
+  bool drop_heaviest(HubDrop why);
+
+  /// Says how much of an unfinished message a connection holds now; drops those that have filled
+  /// the room for these longest while there is too much of it.
+  void set_partial(HubConnection& connection, HubTime now);
+  /// Drops those with most waiting for them while too much is queued in all.
+  void keep_queue_small();
+  /// Drops those with the costliest patterns while these cost too much in all.
+  void keep_patterns_cheap();
+
+  /// Removes who was dropped, and closes their sockets.
+  void remove_ended();
+
+  const HubLimits& limits() const { return limits_; }
+  HubLimits& limits() { return limits_; }
+  /// The numbers of now included.
+  HubCounts counts() const;
+  HubCounts& counters() { return counts_; }
+  size_t& held() { return held_; }
+
+ private:
+  template <class Weight>
+  HubConnection* heaviest(const Weight& weight);
+  HubConnection* least_useful(HubTime now);
+  size_t pattern_cost() const;
+
+  HubLimits limits_;
+  HubCounts counts_;
+  size_t held_ = 0;     // by messages and backlogs; outlives the connections
+  size_t partial_ = 0;  // sum of the standings' partial_bytes
+  uint64_t next_id_ = 0;
+  std::map<uint64_t, HubConnection> connections_;
+};
+
+}  // namespace genio

@@ -1,0 +1,97 @@
+#include "server/hub/standing.hpp"
+
+#include <gtest/gtest.h>
+
+namespace genio {
+namespace {
+
+using std::chrono::milliseconds;
+
+const HubTime start{std::chrono::hours(1)};
+
+HubStanding standing(bool greeted, bool took_part, milliseconds active) {
+  HubStanding s;
+  s.greeted = greeted, s.took_part = took_part;
+  s.accepted = start, s.active = start + active;
+  return s;
+}
+
+TEST(HubDue, NobodyIsDueWhoGreetedAndOwesNothing) {
+  EXPECT_FALSE(hub_due(standing(true, false, milliseconds(0)), HubLimits{}));
+}
+
+TEST(HubDue, EveryDebtHasItsTimeAndTheFirstCounts) {
+  HubLimits limits;
+  limits.greeting = milliseconds(100), limits.partial = milliseconds(200),
+  limits.draining = milliseconds(300);
+  HubStanding s = standing(false, false, milliseconds(0));
+  auto due = hub_due(s, limits);
+  ASSERT_TRUE(due);
+  EXPECT_EQ(due->at, start + milliseconds(100));
+  EXPECT_EQ(due->why, HubDrop::not_greeted);
+  s.greeted = true;
+  s.backlog_bytes = 1, s.drained = start + milliseconds(50);
+  due = hub_due(s, limits);
+  ASSERT_TRUE(due);
+  EXPECT_EQ(due->at, start + milliseconds(350));
+  EXPECT_EQ(due->why, HubDrop::slow_reader);
+  s.partial = true, s.partial_grew = start + milliseconds(50);
+  due = hub_due(s, limits);
+  ASSERT_TRUE(due);
+  EXPECT_EQ(due->at, start + milliseconds(250));
+  EXPECT_EQ(due->why, HubDrop::stalled);
+}
+
+TEST(LessUseful, FirstWithoutGreetingThenWithoutPartThenTheIdlest) {
+  const HubTime now = start + milliseconds(1000);
+  const HubStanding silent = standing(false, false, milliseconds(900));
+  const HubStanding greeted = standing(true, false, milliseconds(800));
+  const HubStanding idle = standing(true, true, milliseconds(100));
+  const HubStanding busy = standing(true, true, milliseconds(700));
+  const HubStanding* order[] = {&silent, &greeted, &idle, &busy};
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 4; ++b)
+      EXPECT_EQ(less_useful(*order[a], *order[b], now), a < b) << a << ' ' << b;
+}
+
+TEST(LessUseful, ANewcomerHasTimeToGreet) {
+  const HubStanding fresh = standing(false, false, milliseconds(0));
+  const HubStanding idle = standing(true, false, milliseconds(-500));
+  EXPECT_TRUE(less_useful(idle, fresh, start + milliseconds(50)));
+  EXPECT_TRUE(less_useful(fresh, idle, start + milliseconds(150)));
+}
+
+TEST(PartialBurden, WhoHoldsMuchForLongWeighsMost) {
+  HubStanding large = standing(true, true, milliseconds(0)), old = large, nothing = large;
+  large.partial_bytes = 4 << 20, large.partial_began = start + milliseconds(995);
+  old.partial_bytes = 256 << 10, old.partial_began = start;
+  nothing.partial_began = start;
+  const HubTime now = start + milliseconds(1000);
+  EXPECT_GT(partial_burden(old, now), partial_burden(large, now));
+  EXPECT_GT(partial_burden(large, now), 0);
+  EXPECT_EQ(partial_burden(nothing, now), 0);
+  large.partial_began = old.partial_began = now;
+  EXPECT_GT(partial_burden(large, now), partial_burden(old, now));
+}
+
+TEST(HubUsage, HalvesEverySecond) {
+  HubUsage usage(start);
+  const double newcomer = usage.at(start);
+  EXPECT_GT(newcomer, 0);
+  usage.add(8e-3, start);
+  EXPECT_NEAR(usage.at(start), newcomer + 8e-3, 1e-9);
+  EXPECT_NEAR(usage.at(start + milliseconds(1000)), (newcomer + 8e-3) / 2, 1e-9);
+  usage.add(1e-3, start + milliseconds(2000));
+  EXPECT_NEAR(usage.at(start + milliseconds(3000)), (newcomer + 8e-3) / 8 + 5e-4, 1e-9);
+}
+
+TEST(TurnKey, WhoUsedLeastIsNextUnlessAnotherHasWaitedLonger) {
+  const milliseconds none(0);
+  EXPECT_LT(turn_key(1e-3, none), turn_key(2e-3, none));
+  EXPECT_LT(turn_key(2e-3, milliseconds(2)), turn_key(1e-3, none));
+  // Whoever has waited for 50 ms goes before every newcomer, whatever it used.
+  EXPECT_LT(turn_key(10, milliseconds(50)), turn_key(HubUsage(start).at(start), none));
+}
+
+}  // namespace
+}  // namespace genio
