@@ -18,6 +18,10 @@ void double_forces(std::vector<Estimate>& unknowns) {
   }
 }
 
+void double_forces(std::vector<JointForce>& joint) {
+  for (JointForce& j : joint) j.low *= 2, j.high *= 2;
+}
+
 bool fits_half_tongue(const Target& target, const Prior& prior, const InferOptions& options) {
   if (!target.midsagittal() || !options.bilateral.value_or(true) || options.finite_differences)
     return false;
@@ -51,7 +55,7 @@ InferOptions half_options(const Mirror& mirror, const InferOptions& options) {
 
 Answer whole_answer(const Mirror& mirror, Answer answer) {
   double_forces(answer.muscles);
-  for (JointForce& joint : answer.joint) joint.low *= 2, joint.high *= 2;
+  double_forces(answer.joint);
   for (TradeOff& trade : answer.unidentified)
     for (Share& share : trade)
       for (const Estimate& c : answer.muscles)

@@ -16,6 +16,7 @@ InferOptions half_options(const Mirror& mirror, const InferOptions& options);
 
 /// Forces of both sides from those of one; other unknowns stay.
 void double_forces(std::vector<Estimate>& unknowns);
+void double_forces(std::vector<JointForce>& joint);
 
 /// The half's answer as one of the whole tongue.
 Answer whole_answer(const Mirror& mirror, Answer answer);

@@ -129,8 +129,7 @@ bool summarise(MotionProblem& problem, const Vector& u, const ModelError& error,
 
 MotionAnswer unfolded(const Mirror& mirror, MotionAnswer answer) {
   for (auto& knot : answer.estimates) double_forces(knot);
-  for (auto& knot : answer.joint)
-    for (JointForce& j : knot) j.low *= 2, j.high *= 2;
+  for (auto& knot : answer.joint) double_forces(knot);
   for (auto& f : answer.frames) f.shape = mirror.whole(f.shape);
   for (Instant& i : answer.trajectory.instants) {
     i.x = mirror.whole(i.x), i.velocity = mirror.whole(i.velocity);

@@ -99,19 +99,15 @@ PriorTerms terms_at(const MotionProblem& problem, size_t knot) {
 
 std::vector<ActingPosterior> motion_posterior(MotionProblem& problem, const Vector& u,
                                               const ModelError& error) {
-  auto here = expansion(problem, u, error);
+  const auto here = expansion(problem, u, error);
   if (!here) return {};
   std::vector<ActingPosterior> result = at_knots(problem, *here, error);
-  for (int k = 0; k < 1; ++k) {
-    const Vector mean = mean_of(result, here->u);
-    if (!problem.value(mean)) break;
-    if (nonlinearity(here->residuals, here->jacobian, mean - here->u, problem.values()) < straight)
-      break;
-    auto next = expansion(problem, mean, error);
-    if (!next) break;
-    here = std::move(next);
-    result = at_knots(problem, *here, error);
-  }
+  const Vector mean = mean_of(result, here->u);
+  if (!problem.value(mean) ||
+      nonlinearity(here->residuals, here->jacobian, mean - here->u, problem.values()) < straight)
+    return result;
+  // Once: a derivative costs as much as several motions.
+  if (const auto there = expansion(problem, mean, error)) result = at_knots(problem, *there, error);
   return result;
 }
 

@@ -31,9 +31,8 @@ ActingPosterior acting_posterior(QuadraticDensity density, const std::vector<Unk
                                  const PriorTerms& prior, const ModelError& error, double way);
 
 /// A derivative that foretells residuals to this many standard deviations a row changes no
-/// posterior, and one that does not is taken again so often.
+/// posterior; one that does not is taken again elsewhere.
 constexpr double straight = 0.1;
-constexpr int most_turns = 2;
 
 /// How far the residuals at `there` are from what the derivative at `here` foretells, in standard
 /// deviations a row (root mean square).

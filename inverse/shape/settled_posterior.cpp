@@ -3,6 +3,11 @@
 #include <cmath>
 
 namespace genio {
+namespace {
+
+constexpr int most_turns = 2;  // derivatives taken again
+
+}  // namespace
 
 double displacement_from_rest(const Comparison& comparison, const Positions& x) {
   const auto& nodes = comparison.line().nodes();

@@ -16,29 +16,6 @@ constexpr int most_tries = 2;
 constexpr const char* id_is_taken = "the id was used for another request; choose an id that is new";
 constexpr double newest_counts = 0.2;  // of the usual time of a request
 
-bool has_intervals(const command_reply_t& r) {
-  return std::any_of(r.low_N.begin(), r.low_N.end(), [](double low) { return !std::isnan(low); });
-}
-
-/// True for what says more, or fits better and says as much.
-bool better(const command_reply_t& a, const command_reply_t& b) {
-  return has_intervals(a) != has_intervals(b) ? has_intervals(a) : a.rms_mm < b.rms_mm;
-}
-
-command_reply_t at_deadline(const std::string& id, const std::optional<command_reply_t>& best,
-                            bool waited) {
-  if (!best)
-    return reply_without_answer(id, "deadline",
-                                waited ? "the deadline passed while the request waited for its turn"
-                                       : "the deadline passed before the first step was done");
-  command_reply_t reply = *best;
-  reply.id = id, reply.status = "deadline";
-  reply.message = has_intervals(reply)
-                      ? "the deadline passed before all starts were done"
-                      : "the deadline passed; this is the best shape so far, without intervals";
-  return reply;
-}
-
 }  // namespace
 
 Dispatcher::Dispatcher(const DispatchLimits& limits, std::function<void()> wake,
@@ -179,7 +156,7 @@ void Dispatcher::take_from_queue(const std::string& id) {
 void Dispatcher::answer(Entry& entry, command_reply_t reply) {
   // Of who asked in an earlier process one is known; the others ask again.
   for (const auto& client : entry.clients) reply_to(client, reply);
-  keep(AnsweredRecord{entry.request.id, reply.status, encode(reply)});
+  if (journal_) keep(AnsweredRecord{entry.request.id, reply.status, encode(reply)});
   // Repeated questions need the digest and the reply alone.
   const std::string id = entry.request.id;
   entry.request = {}, entry.request.id = id;
@@ -300,7 +277,7 @@ void Dispatcher::keep_best(const std::string& id, command_reply_t reply) {
   const auto it = entries_.find(id);
   if (it == entries_.end() || it->second.state != State::running) return;
   auto& best = it->second.best;
-  if (!best || better(reply, *best)) best = std::move(reply);
+  if (!best || says_more(reply, *best)) best = std::move(reply);
 }
 
 void Dispatcher::finish(const std::string& id, const command_reply_t& reply, double seconds) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace genio {
@@ -59,6 +60,10 @@ std::vector<uint8_t> blank_reply(const EarlierVersion& version,
   return bytes;
 }
 
+bool has_intervals(const command_reply_t& r) {
+  return std::any_of(r.low_N.begin(), r.low_N.end(), [](double low) { return !std::isnan(low); });
+}
+
 }  // namespace
 
 command_reply_t reply_without_answer(const std::string& id, const char* status,
@@ -66,6 +71,24 @@ command_reply_t reply_without_answer(const std::string& id, const char* status,
   command_reply_t reply{};
   reply.id = id, reply.status = status, reply.verdict = "none", reply.message = reason;
   reply.mirrored = std::nan(""), reply.retry_after_s = retry_after_s;
+  return reply;
+}
+
+bool says_more(const command_reply_t& a, const command_reply_t& b) {
+  return has_intervals(a) != has_intervals(b) ? has_intervals(a) : a.rms_mm < b.rms_mm;
+}
+
+command_reply_t at_deadline(const std::string& id, const std::optional<command_reply_t>& best,
+                            bool waited) {
+  if (!best)
+    return reply_without_answer(id, "deadline",
+                                waited ? "the deadline passed while the request waited for its turn"
+                                       : "the deadline passed before the first step was done");
+  command_reply_t reply = *best;
+  reply.id = id, reply.status = "deadline";
+  reply.message = has_intervals(reply)
+                      ? "the deadline passed before all starts were done"
+                      : "the deadline passed; this is the best shape so far, without intervals";
   return reply;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The messages that no computation makes.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,14 @@ struct OutgoingMessage {
 /// A reply without an answer. `retry_after_s`: when to ask again; 0: never the same.
 command_reply_t reply_without_answer(const std::string& id, const char* status,
                                      const std::string& reason, double retry_after_s = 0);
+
+/// True for what says more, or fits better and says as much.
+bool says_more(const command_reply_t& a, const command_reply_t& b);
+
+/// What a request gets at its deadline: the best so far, if there is any. `waited`: its turn never
+/// came.
+command_reply_t at_deadline(const std::string& id, const std::optional<command_reply_t>& best,
+                            bool waited);
 
 /// `rms` [m].
 progress_t progress_of(const std::string& id, const char* stage, int iteration, double rms);
