@@ -28,9 +28,7 @@ class ResultLogs : public testing::Test {
     return result;
   }
   std::string text(const std::string& name) const {
-    std::stringstream all;
-    all << std::ifstream(folder.path() + "/" + name).rdbuf();
-    return all.str();
+    return test::content_of(folder.path() + "/" + name);
   }
   test::TemporaryFolder folder;
   const Question asked = {{"model", "m"}, {"starts", 3}, {"robust", false}, {"start_s", {}}};

@@ -1,9 +1,24 @@
 #pragma once
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 namespace genio::test {
+
+/// Where files are flushed at no cost, for tests that do so thousands of times.
+inline std::filesystem::path memory_folder() {
+  const std::filesystem::path shared = "/dev/shm";
+  return std::filesystem::exists(shared) ? shared : std::filesystem::temp_directory_path();
+}
+
+/// All bytes of a file; none where it cannot be read.
+inline std::string content_of(const std::string& path) {
+  std::stringstream all;
+  all << std::ifstream(path, std::ios::binary).rdbuf();
+  return all.str();
+}
 
 /// A folder that goes away with its object.
 class TemporaryFolder {

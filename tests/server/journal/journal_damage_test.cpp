@@ -13,22 +13,12 @@
 namespace genio {
 namespace {
 
-namespace fs = std::filesystem;
 using test::as_made;
 using test::entry_of;
 using test::reply_of;
 
 constexpr unsigned entry_count = 24;
 constexpr size_t request_size = 900, reply_size = 5000;
-
-/// Hundreds of journals would flush a disk thousands of times.
-const std::string in_memory = fs::exists("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
-
-std::string read_all(const std::string& path) {
-  std::stringstream all;
-  all << std::ifstream(path, std::ios::binary).rdbuf();
-  return all.str();
-}
 
 void write_all(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
@@ -50,12 +40,12 @@ struct Whole {
 };
 
 Whole whole_journal(bool closed) {
-  const test::TemporaryFolder folder(in_memory);
+  const test::TemporaryFolder folder(test::memory_folder());
   const std::string path = folder.path() + "/journal";
   Journal journal(path);
   fill(journal);
   if (closed) Journal moved(std::move(journal));
-  return {read_all(path), closed ? "" : read_all(path + "-wal")};
+  return {test::content_of(path), closed ? "" : test::content_of(path + "-wal")};
 }
 
 std::string damaged(std::string bytes, std::mt19937& random) {
@@ -142,7 +132,7 @@ TEST(DamagedJournals, TheFileIsRefusedOrReadRight) {
   std::mt19937 random(1);
   std::map<Found, int> found;
   for (int trial = 0; trial < 500; ++trial) {
-    const test::TemporaryFolder folder(in_memory);
+    const test::TemporaryFolder folder(test::memory_folder());
     const std::string path = folder.path() + "/journal", copy = folder.path() + "/copy";
     const std::string bytes = damaged(whole.file, random);
     write_all(path, bytes), write_all(copy, bytes);
@@ -165,7 +155,7 @@ TEST(DamagedJournals, ADamagedLogCostsTheLastEntriesButMakesNoWrongOne) {
   ASSERT_GT(whole.log.size(), 100'000u);
   std::mt19937 random(2);
   for (int trial = 0; trial < 200; ++trial) {
-    const test::TemporaryFolder folder(in_memory);
+    const test::TemporaryFolder folder(test::memory_folder());
     const std::string path = folder.path() + "/journal", copy = folder.path() + "/copy";
     const std::string log = damaged(whole.log, random);
     for (const std::string& name : {path, copy})
@@ -179,7 +169,7 @@ TEST(DamagedJournals, ADamagedLogCostsTheLastEntriesButMakesNoWrongOne) {
 TEST(DamagedJournals, TheWholeOneIsReadRight) {
   for (const bool closed : {true, false}) {
     const Whole whole = whole_journal(closed);
-    const test::TemporaryFolder folder(in_memory);
+    const test::TemporaryFolder folder(test::memory_folder());
     const std::string path = folder.path() + "/journal";
     write_all(path, whole.file);
     if (!closed) write_all(path + "-wal", whole.log);
@@ -188,7 +178,7 @@ TEST(DamagedJournals, TheWholeOneIsReadRight) {
 }
 
 TEST(DamagedJournals, AReplyThatIsDamagedCostsNoOtherRequest) {
-  const test::TemporaryFolder folder(in_memory);
+  const test::TemporaryFolder folder(test::memory_folder());
   const std::string path = folder.path() + "/journal";
   {
     Journal journal(path);
@@ -196,7 +186,7 @@ TEST(DamagedJournals, AReplyThatIsDamagedCostsNoOtherRequest) {
     journal.answered("request-1", reply_of(1, reply_size), "converged", 5);
     journal.sync();
   }
-  std::string bytes = read_all(path);
+  std::string bytes = test::content_of(path);
   const auto reply = reply_of(1, reply_size);
   const auto at = bytes.find(std::string(reply.begin(), reply.begin() + 100));
   ASSERT_NE(at, std::string::npos);
@@ -213,14 +203,14 @@ TEST(DamagedJournals, AReplyThatIsDamagedCostsNoOtherRequest) {
 }
 
 TEST(DamagedJournals, EveryByteOfARequestThatWaitsCountsAtOpening) {
-  const test::TemporaryFolder folder(in_memory);
+  const test::TemporaryFolder folder(test::memory_folder());
   const std::string path = folder.path() + "/journal";
   {
     Journal journal(path);
     journal.accept(entry_of(7, request_size));
     journal.sync();
   }
-  std::string bytes = read_all(path);
+  std::string bytes = test::content_of(path);
   const auto request = entry_of(7, request_size).request;
   const auto at = bytes.find(std::string(request.begin(), request.end()));
   ASSERT_NE(at, std::string::npos);

@@ -115,7 +115,7 @@ TEST_P(Faults, AtAnyMomentCostWhatIsToldAndNothingElse) {
   const Fault& fault = GetParam();
   int calls = 1, failures = 0;
   for (int at = 0; at < calls; ++at) {
-    const test::TemporaryFolder folder(std::filesystem::exists("/dev/shm") ? "/dev/shm" : "/tmp");
+    const test::TemporaryFolder folder(test::memory_folder());
     const std::string path = folder.path() + "/journal";
     test::RecordedDisk disk;
     calls = 0;

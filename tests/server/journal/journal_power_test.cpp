@@ -20,15 +20,6 @@ using test::reply_of;
 
 constexpr size_t kept_request = 3000, kept_reply = 5000;
 
-/// Flushes are recorded and not waited for.
-const std::string flushless = fs::exists("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
-
-std::string content(const std::string& path) {
-  std::stringstream all;
-  all << std::ifstream(path, std::ios::binary).rdbuf();
-  return all.str();
-}
-
 /// Promised once `after` events had happened.
 struct Promised {
   size_t after;
@@ -49,7 +40,8 @@ Recording recorded_service(const std::string& path) {
   journal.accept(entry_of(0, kept_request));
   journal.sync();
   Recording recording;
-  for (const char* ending : {"", "-wal"}) recording.files[path + ending] = content(path + ending);
+  for (const char* ending : {"", "-wal"})
+    recording.files[path + ending] = test::content_of(path + ending);
   disk.events.clear();
   const auto promise = [&](unsigned k, JournalState state) {
     recording.promises.push_back({disk.events.size(), k, state});
@@ -71,7 +63,7 @@ Recording recorded_service(const std::string& path) {
 }
 
 TEST(PowerFailure, TakesNothingThatWasPromised) {
-  const test::TemporaryFolder folder(flushless);
+  const test::TemporaryFolder folder(test::memory_folder());  // flushes are recorded, not awaited
   const std::string path = folder.path() + "/journal";
   const Recording recording = recorded_service(path);
   const auto wrote_back = std::count_if(

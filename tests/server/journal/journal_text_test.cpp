@@ -80,9 +80,7 @@ TEST(JournalText, AnEntryAsJsonHasNullWhereThereIsNothing) {
 class JournalExport : public testing::Test {
  protected:
   nlohmann::json read(const std::string& name) const {
-    std::stringstream all;
-    all << std::ifstream(out + "/" + name).rdbuf();
-    return nlohmann::json::parse(all.str());
+    return nlohmann::json::parse(test::content_of(out + "/" + name));
   }
   test::TemporaryFolder folder;
   const std::string path = folder.path() + "/journal", out = folder.path() + "/out/requests";
