@@ -73,10 +73,24 @@ std::string motion_json(const MotionResult& r) {
 
 std::string status_json(const server_status_t& s, int indent) {
   Json j;
-  j["version"] = s.version, j["model"] = s.model;
+  j["version"] = s.version;
+  j["model"] = s.model.empty() ? "" : s.model.front();
+  j["models"] = Json::array();
+  for (size_t k = 0; k < s.model.size() && k < s.model_hash.size(); ++k)
+    j["models"].push_back({{"name", s.model[k]}, {"hash", s.model_hash[k]}});
   j["queued"] = s.queued, j["running"] = s.running;
-  j["received"] = s.received, j["replied"] = s.replied, j["refused"] = s.refused;
-  j["uptime_s"] = s.uptime_s;
+  j["workers"] = s.workers, j["replaced"] = s.replaced;
+  j["received"] = s.received, j["computed"] = s.computed, j["replied"] = s.replied;
+  j["refused"] = s.refused, j["failed"] = s.failed, j["cancelled"] = s.cancelled;
+  j["past_deadline"] = s.past_deadline;
+  j["dropped"] = {{"unreadable", s.unreadable},
+                  {"unsigned", s.unsigned_dropped},
+                  {"forged", s.forged_dropped},
+                  {"stale", s.stale_dropped},
+                  {"connections", s.hub_dropped}};
+  j["hub_connections"] = s.hub_connections;
+  j["latency_s"] = {{"p50", s.latency_p50_s}, {"p90", s.latency_p90_s}, {"p99", s.latency_p99_s}};
+  j["memory_mb"] = s.memory_mb, j["uptime_s"] = s.uptime_s;
   return j.dump(indent);
 }
 

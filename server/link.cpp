@@ -11,10 +11,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <optional>
-#include <thread>
 
 #include "forward/base/types.hpp"
 #include "server/hub/protocol/tcpq.hpp"
@@ -24,6 +22,8 @@
 namespace genio {
 
 namespace {
+
+constexpr int longest_pause_ms = 100;  // between two tries to connect
 
 /// True where the socket becomes ready for `events` in time.
 bool ready(int fd, short events, int longest_ms) {
@@ -171,16 +171,18 @@ bool Link::publish(const std::string& channel, const std::vector<uint8_t>& bytes
   return sent;
 }
 
-bool Link::wait(int timeout_ms, int other_fd) {
+bool Link::wait(int timeout_ms, std::span<const int> others) {
+  std::vector<pollfd> polled;
+  for (int fd : others) polled.push_back({fd, POLLIN, 0});
   // LCM's own waiting functions would abort the process or block for ever without a connection.
   if (!connect()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(std::min(timeout_ms, 100)));
+    poll(polled.data(), polled.size(), std::min(timeout_ms, longest_pause_ms));
     return false;
   }
   const int fd = lcm_get_fileno(lcm_);
-  pollfd polled[2] = {{fd, POLLIN, 0}, {other_fd, POLLIN, 0}};
-  if (poll(polled, other_fd >= 0 ? 2 : 1, timeout_ms) <= 0) return true;
-  if (!(polled[0].revents & (POLLIN | POLLHUP | POLLERR))) return true;
+  polled.push_back({fd, POLLIN, 0});
+  if (poll(polled.data(), polled.size(), timeout_ms) <= 0) return true;
+  if (!(polled.back().revents & (POLLIN | POLLHUP | POLLERR))) return true;
   std::optional<Silenced> lcm;
   if (tcp_ && is_closed(fd)) lcm.emplace();
   const bool good = lcm_handle(lcm_) == 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <list>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,9 @@ class Link {
   void subscribe(const std::string& channel, Handler handler);
   /// False when the connection is down.
   bool publish(const std::string& channel, const std::vector<uint8_t>& bytes);
-  /// Waits up to `timeout_ms` for a message, or for `other_fd` (if >= 0) to become readable, and
-  /// handles what is there. False when the connection is down; a later call tries to reconnect.
-  bool wait(int timeout_ms, int other_fd = -1);
+  /// Waits up to `timeout_ms` for a message, or for one of `others` to become readable, and handles
+  /// the message that is there. False when the connection is down, which a later call mends.
+  bool wait(int timeout_ms, std::span<const int> others = {});
   bool connected() const;
 
  private:

@@ -4,6 +4,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <set>
@@ -62,7 +63,8 @@ void compute(const Model& model, const ServiceOptions& options, RequestWorker& w
 
 OutgoingMessage status_message(const Dispatcher& dispatcher, const Model& model, double uptime) {
   server_status_t s = dispatcher.counts();
-  s.utime = now_us(), s.version = GENIO_VERSION, s.model = model.name, s.uptime_s = uptime;
+  s.utime = now_us(), s.version = GENIO_VERSION, s.uptime_s = uptime;
+  s.model = {model.name}, s.model_hash = {""}, s.model_count = 1;
   return {"GENIO_STATUS", encode(s)};
 }
 
@@ -125,7 +127,7 @@ void serve(const Model& model, const ServiceOptions& options, const std::atomic<
       if (!unkept.contains(message.acknowledges)) leaving.push_back(std::move(message));
   };
   while (!stop) {
-    const bool up = link.wait(turn_ms, wake.descriptor());
+    const bool up = link.wait(turn_ms, std::array{wake.descriptor()});
     wake.clear();
     dispatcher.pass_deadlines(now_us());
     collect();

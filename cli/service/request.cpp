@@ -39,6 +39,7 @@ shape_request_t request_of(const ContourFrame& frame, double noise, const Reques
   r.point_count = int(frame.points.size());
   r.default_sigma_mm = 1e3 * noise;
   r.deadline_s = o.deadline_s;
+  r.time_s = frame.time_s, r.label = frame.label;
   r.starts = o.starts;
   r.bilateral = -1;
   return r;

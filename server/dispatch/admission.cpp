@@ -12,7 +12,7 @@ namespace genio {
 namespace {
 
 constexpr size_t longest_id = 200, longest_kind = 64;
-constexpr int most_starts = 1000;
+constexpr int most_starts = 1000, most_priority = 10;
 constexpr size_t before_id = 16;  // bytes: the fingerprint and the time
 
 /// Reads one string of a message at `at`; nothing where it is none.
@@ -33,6 +33,25 @@ bool printable(const std::string& text) {
                       [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
+std::string fault_of_frame(const shape_request_t& r) {
+  if (!r.frame.empty() && r.frame != "model" && r.frame != "device" && r.frame != "placed")
+    return "frame: expected 'model', 'device' or 'placed'";
+  if (r.frame != "device" && r.palate_count > 0)
+    return "palate_x_mm: a palate is for points in the frame 'device'";
+  if (r.frame == "placed" && !(r.scale > 0 && std::isfinite(r.scale)))
+    return "scale must be above 0 in the frame 'placed'";
+  for (const auto& [name, value] : {std::pair("tilt_deg", r.tilt_deg),
+                                    {"shift_x_mm", r.shift_x_mm},
+                                    {"shift_z_mm", r.shift_z_mm}})
+    if (r.frame == "placed" && !std::isfinite(value))
+      return fmt::format("{} must be finite in the frame 'placed'", name);
+  for (const auto* palate : {&r.palate_x_mm, &r.palate_z_mm})
+    for (size_t k = 0; k < palate->size(); ++k)
+      if (!std::isfinite((*palate)[k]))
+        return fmt::format("palate point {}: palate_x_mm and palate_z_mm must be finite", k + 1);
+  return "";
+}
+
 }  // namespace
 
 bool usable_client(const std::string& name) {
@@ -46,8 +65,15 @@ std::string fault_of(const shape_request_t& r) {
   if (r.id.empty() || r.id.size() > longest_id || !printable(r.id))
     return fmt::format("id: expected 1 to {} characters, none of them a control character",
                        longest_id);
-  if (r.model.size() > longest_id)
-    return fmt::format("model: expected at most {} characters", longest_id);
+  for (const auto& [name, text] : {std::pair("model", &r.model), {"label", &r.label}})
+    if (text->size() > longest_id || !printable(*text))
+      return fmt::format("{}: expected at most {} characters, none of them a control character",
+                         name, longest_id);
+  if (!r.stream.empty() && !usable_client(r.stream))
+    return "stream: expected at most 40 letters, digits, '_' or '-'";
+  if (std::abs(r.priority) > most_priority)
+    return fmt::format("priority must be -{0} to {0}", most_priority);
+  if (const std::string fault = fault_of_frame(r); !fault.empty()) return fault;
   for (size_t k = 0; k < r.kind.size(); ++k)
     if (r.kind[k].size() > longest_kind)
       return fmt::format("point {}: kind has {} characters; expected at most {}", k + 1,

@@ -26,11 +26,11 @@ template <class T>
 struct WireLayout;
 template <>
 struct WireLayout<shape_request_t> {
-  static constexpr const char* fields = "lsssnDDDDSddbi";
+  static constexpr const char* fields = "lsssssdissddddnDDnDDDDSddbi";
 };
 template <>
 struct WireLayout<command_reply_t> {
-  static constexpr const char* fields = "lsssdsnSDDDDDDDDDdinISDnSnSDDDdddiidnDDdnDDnD";
+  static constexpr const char* fields = "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {
@@ -46,7 +46,7 @@ struct WireLayout<ack_t> {
 };
 template <>
 struct WireLayout<server_status_t> {
-  static constexpr const char* fields = "lssiillld";
+  static constexpr const char* fields = "lsnSSiiillllllllllllllddddd";
 };
 
 /// Walks the bytes after the fingerprint along `fields`; empty when they fit exactly, else what is
