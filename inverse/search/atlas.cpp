@@ -11,6 +11,25 @@ namespace {
 
 constexpr double levels[] = {0.06, 0.15, 0.3};
 
+/// The atlas of all these unknowns, of which those that it does not have change no shape.
+Atlas extended(Atlas atlas, const std::vector<Unknown>& unknowns) {
+  const auto count = Eigen::Index(unknowns.size());
+  atlas.lower.conservativeResize(count), atlas.upper.conservativeResize(count);
+  for (size_t i = atlas.names.size(); i < unknowns.size(); ++i) {
+    atlas.names.push_back(unknowns[i].name);
+    atlas.lower[Eigen::Index(i)] = unknowns[i].lower;
+    atlas.upper[Eigen::Index(i)] = unknowns[i].upper;
+  }
+  for (Atlas::Entry& entry : atlas.entries) {
+    const Eigen::Index known = entry.unknowns.size();
+    entry.unknowns.conservativeResizeLike(Vector::Zero(count));
+    const Matrix by_known = std::move(entry.by_unknown);
+    entry.by_unknown = Matrix::Zero(by_known.rows(), count);
+    entry.by_unknown.leftCols(known) = by_known;
+  }
+  return atlas;
+}
+
 }  // namespace
 
 Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspace& ws) {
@@ -49,14 +68,19 @@ Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspa
 
 const Atlas& AtlasCache::get(const Model& model, const Prior& prior, bool bilateral,
                              Workspace& ws) {
-  const auto unknowns = unknowns_of(model, prior, bilateral);
-  const PriorTerms terms = prior_terms(prior, unknowns);
+  Prior still = prior;
+  still.head_pose.reset(), still.before.reset();  // neither counts for what shapes there are
+  const auto unknowns = unknowns_of(model, still, bilateral);
+  const PriorTerms terms = prior_terms(still, unknowns);
   const bool same = atlas_ && atlas_->names.size() == unknowns.size() &&
                     std::equal(unknowns.begin(), unknowns.end(), atlas_->names.begin(),
                                [](const Unknown& c, const auto& name) { return c.name == name; }) &&
                     atlas_->lower == terms.lower && atlas_->upper == terms.upper;
-  if (!same) atlas_ = make_atlas(model, prior, bilateral, ws);
-  return *atlas_;
+  if (!same) atlas_ = make_atlas(model, still, bilateral, ws), posed_.reset();
+  if (!prior.head_pose) return *atlas_;
+  if (!posed_)  // the pose is the last of the unknowns
+    posed_ = extended(*atlas_, unknowns_of(model, prior, bilateral));
+  return *posed_;
 }
 
 std::vector<const Atlas::Entry*> nearest(const Atlas& atlas, const Comparison& comparison,

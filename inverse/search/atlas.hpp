@@ -28,13 +28,14 @@ std::vector<const Atlas::Entry*> nearest(const Atlas& atlas, const Comparison& c
                                          const std::vector<Unknown>& unknowns,
                                          const PriorTerms& prior);
 
-/// The atlas of one worker, made when it is first asked for and again for other unknowns.
+/// The atlas of one worker, made when it is first asked for and again for other unknowns. A head
+/// pose, which bends no tongue, takes no new one.
 class AtlasCache {
  public:
   const Atlas& get(const Model& model, const Prior& prior, bool bilateral, Workspace& ws);
 
  private:
-  std::optional<Atlas> atlas_;
+  std::optional<Atlas> atlas_, posed_;  // the same without and with a head pose
 };
 
 }  // namespace genio
