@@ -7,22 +7,23 @@
 #include <thread>
 
 #include "forward/base/elapsed.hpp"
-#include "forward/model/build_model.hpp"
-#include "forward/model/model_file.hpp"
 #include "server/client.hpp"
 #include "server/hub/hub.hpp"
+#include "server/served_model.hpp"
 #include "server/service.hpp"
 
 namespace genio::bench {
 namespace {
 
 Json run_service(const BenchOptions& o, const Progress&) {
-  const Model m = read_model(o.model);
+  std::vector<ServedModel> models = read_served_models({o.model});
+  const Model& m = *models.front().model;
+  const Nursery nursery(worker_of(models, 2000));
   const Hub hub(0);
   ServiceOptions options;
   options.url = fmt::format("tcpq://127.0.0.1:{}", hub.port());
   std::atomic<bool> stop{false};
-  std::thread server([&] { serve(m, options, stop); });
+  std::thread server([&] { serve(nursery, identities(models), options, stop); });
   std::vector<double> overhead;
   int requests = 0, replies = 0;
   {

@@ -5,7 +5,7 @@
 
 #include "forward/model/build_model.hpp"
 #include "runs/frames/measured.hpp"
-#include "server/answer_request.hpp"
+#include "server/answer/answer_request.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio::test {
@@ -25,7 +25,7 @@ class AskedTest : public testing::Test {
   static const Model& model() { return *model_; }
   static command_reply_t answer(const shape_request_t& r, double deadline_s = 0,
                                 const RequestHooks& hooks = {}) {
-    return answer_request(*model_, r, deadline_s, *worker_, hooks);
+    return answer_request(*model_, r, deadline_s, *worker_, hooks).reply;
   }
 
  private:

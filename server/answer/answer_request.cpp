@@ -1,8 +1,9 @@
-#include "server/answer_request.hpp"
+#include "server/answer/answer_request.hpp"
 
-#include <fmt/format.h>
+#include <new>
 
 #include "forward/base/elapsed.hpp"
+#include "inverse/prior/base/unknowns.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/search/multi_start.hpp"
 #include "server/answer/fill_reply.hpp"
@@ -70,17 +71,14 @@ Answer inferred(const Model& model, const Target& target, const Prior& prior,
 
 }  // namespace
 
-command_reply_t answer_request(const Model& model, const shape_request_t& request,
-                               double deadline_s, RequestWorker& worker,
-                               const RequestHooks& hooks) {
-  command_reply_t reply = reply_without_answer(request.id, "failed", "");
-  fill_placement({}, reply);
+RequestAnswer answer_request(const Model& model, const shape_request_t& request, double deadline_s,
+                             RequestWorker& worker, const RequestHooks& hooks,
+                             const StreamState& start) {
+  RequestAnswer answer{reply_without_answer(request.id, "failed", ""), {}};
+  command_reply_t& reply = answer.reply;
   const Stopwatch watch;
   RequestWorker::State& state = worker.state();
   try {
-    if (!request.model.empty() && request.model != model.name)
-      throw InputError(
-          fmt::format("model: '{}' is asked for; this server has '{}'", request.model, model.name));
     Prior prior = prior_of(model, request);
     const LaidPoints laid = laid_by(state, model, request);
     fill_placement(laid.placement, reply);
@@ -94,6 +92,10 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
     }
     const Target target = target_of(model, laid.frame, noise_of(request));
     if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;
+    const bool bilateral = options.bilateral.value_or(target.midsagittal());
+    if (start.unknowns.size() == Eigen::Index(unknowns_of(model, prior, bilateral).size()) &&
+        start.prior == request.prior)
+      options.start = start.unknowns, options.start_shape = start.shape;
     options.progress = hooks.progress, options.cancelled = hooks.cancelled;
     if (hooks.improved)
       options.improved = [&](const Answer& so_far) {
@@ -111,11 +113,14 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
     reply.factorizations = a.factorizations;
     fill_answer(state.line, a, reply);
     fill_placement(laid.placement, reply);
+    if (a.status == InferStatus::converged) answer.state = {request.prior, a.activations, a.shape};
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     reply.message = reason_text(e.what());
   }
   reply.wall_s = watch.seconds();
-  return reply;
+  return answer;
 }
 
 }  // namespace genio
