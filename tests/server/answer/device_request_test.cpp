@@ -11,6 +11,8 @@ namespace {
 
 using test::device_request;
 using test::expect_same;
+using test::force_in;
+using test::put_point;
 
 class DeviceRequest : public test::AskedTest {};
 
