@@ -14,7 +14,7 @@
 #include "server/answer_request.hpp"
 #include "server/dispatch/dispatcher.hpp"
 #include "server/journalled.hpp"
-#include "server/link.hpp"
+#include "server/link/link.hpp"
 
 namespace genio {
 namespace {

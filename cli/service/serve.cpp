@@ -10,9 +10,9 @@
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "server/hub/hub.hpp"
-#include "server/link.hpp"
+#include "server/link/link.hpp"
 #include "server/service.hpp"
-#include "server/tcp_address.hpp"
+#include "server/link/tcp_address.hpp"
 
 namespace genio::cli {
 namespace {

@@ -34,7 +34,8 @@ void Dispatcher::keep(Record record) {
 }
 
 void Dispatcher::reply_to(const std::string& client, command_reply_t reply) {
-  reply.utime = now_us();
+  // A repeated reply is the same to the byte, so that parts of it which came before still count.
+  if (reply.utime == 0) reply.utime = now_us();
   send({"GENIO_REPLY." + client, encode(reply)});
   ++replied_;
 }
@@ -154,6 +155,7 @@ void Dispatcher::take_from_queue(const std::string& id) {
 }
 
 void Dispatcher::answer(Entry& entry, command_reply_t reply) {
+  reply.utime = now_us();
   // Of who asked in an earlier process one is known; the others ask again.
   for (const auto& client : entry.clients) reply_to(client, reply);
   if (journal_) keep(AnsweredRecord{entry.request.id, reply.status, encode(reply)});
@@ -182,7 +184,12 @@ void Dispatcher::receive_cancel(const void* data, size_t size) {
   const std::lock_guard lock(mutex_);
   if (!cancel || !usable_client(cancel->client)) return;
   const auto it = entries_.find(cancel->id);
-  if (it == entries_.end() || it->second.state == State::answered)
+  const bool answered = it != entries_.end() && it->second.state == State::answered;
+  // It may have missed the reply to its first try.
+  if (answered && it->second.best->status == "cancelled" &&
+      cancel->client == it->second.clients.front())
+    return reply_to(cancel->client, *it->second.best);
+  if (it == entries_.end() || answered)
     return refuse(cancel->client, cancel->id.substr(0, 200), "no request of that id waits or runs");
   Entry& entry = it->second;
   if (cancel->client != entry.clients.front())
