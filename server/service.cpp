@@ -145,6 +145,7 @@ class ServiceLoop {
         case Kind::answer:
           log(fmt::format("{}: {} {} rms {:.3f} mm in {:.2f} s", event.id, event.reply.status,
                           event.reply.verdict, event.reply.rms_mm, event.reply.wall_s));
+          if (options_.computed) options_.computed(event.id);
           dispatcher_.finish(event.id, std::move(event.reply), std::move(event.state), now_us());
           break;
         case Kind::lost:

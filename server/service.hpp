@@ -18,6 +18,8 @@ struct ServiceOptions {
   /// File that keeps requests and replies, see docs/journal.md; empty: they end with the process.
   std::string journal;
   std::function<void(const std::string& line)> log;
+  /// Told of each computation that ended with a reply.
+  std::function<void(const std::string& id)> computed;
   std::function<HubCounts()> hub;  ///< counts of the server's own hub, if it has one
 };
 

@@ -16,9 +16,12 @@ namespace genio {
 
 struct RequestWorker::State {
   explicit State(const Model& m) : workspace(m), line(m) {
-    TongueState* half = workspace.half(Prior{});
-    TongueState& tongue = half ? *half : workspace.whole();
-    tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace);
+    const auto make_atlas_of = [](TongueState& tongue, bool bilateral) {
+      tongue.atlas.get(*tongue.model, Prior{}, bilateral, tongue.workspace);
+    };
+    if (TongueState* half = workspace.half(Prior{})) make_atlas_of(*half, true);
+    else make_atlas_of(workspace.whole(), true);
+    make_atlas_of(workspace.whole(), false);
   }
   InferWorkspace workspace;
   const TongueLine line;
