@@ -22,7 +22,8 @@ AtlasMaker::AtlasMaker(const Model& model, const Prior& prior, bool bilateral)
   for (const Unknown& c : unknowns_) atlas_.names.push_back(c.name);
   atlas_.lower = terms.lower, atlas_.upper = terms.upper;
   for (Eigen::Index i = n; i-- > 0;)
-    if (unknowns_[size_t(i)].kind == Unknown::Kind::muscle && !terms.fixed(i)) left_.push_back(i);
+    if (unknowns_[size_t(i)].kind == Unknown::Kind::muscle && !terms.fixed(i))
+      for (size_t level = std::size(levels); level-- > 0;) left_.push_back({i, level});
 }
 
 bool AtlasMaker::is_for(const std::vector<Unknown>& unknowns, const PriorTerms& terms) const {
@@ -47,14 +48,14 @@ bool AtlasMaker::add(const Model& model, const Vector& z, const Positions& start
 
 bool AtlasMaker::go_on(const Model& model, Workspace& ws, const StopAtlas& stop) {
   if (atlas_.entries.empty() && !add(model, rest_, model.rest, ws)) left_.clear();
-  for (; !left_.empty() && !(stop && stop()); left_.pop_back()) {
-    Positions from = atlas_.entries.front().shape;
-    for (const double level : levels) {
-      Vector z = rest_;
-      z[left_.back()] = level;
-      if (!add(model, z, from, ws)) break;
-      from = atlas_.entries.back().shape;
-    }
+  while (!left_.empty() && !(stop && stop())) {
+    const auto [muscle, level] = left_.back();
+    left_.pop_back();
+    Vector z = rest_;
+    z[muscle] = levels[level];
+    const Atlas::Entry& from = level == 0 ? atlas_.entries.front() : atlas_.entries.back();
+    if (!add(model, z, Positions(from.shape), ws))
+      std::erase_if(left_, [&](const Single& s) { return s.muscle == muscle; });
   }
   return left_.empty();
 }

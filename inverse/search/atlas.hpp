@@ -42,7 +42,11 @@ class AtlasMaker {
 
   std::vector<Unknown> unknowns_;
   Vector rest_;
-  std::vector<Eigen::Index> left_;  ///< muscles that are to come, last first
+  struct Single {
+    Eigen::Index muscle;
+    size_t level;
+  };
+  std::vector<Single> left_;  ///< that are to come, last first
   Atlas atlas_;
 };
 

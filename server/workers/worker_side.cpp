@@ -16,6 +16,7 @@ namespace genio {
 namespace {
 
 constexpr double sign_of_life_s = 0.2;
+constexpr int leisure_ms = 1000;
 
 double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -62,9 +63,9 @@ Assignment WorkerPipe::wait() {
   }
 }
 
-bool WorkerPipe::called() const {
+bool WorkerPipe::called(int within_ms) const {
   pollfd polled{socket_, POLLIN, 0};
-  return poll(&polled, 1, 0) != 0;
+  return poll(&polled, 1, within_ms) != 0;
 }
 
 bool WorkerPipe::withdrawn() {
@@ -101,7 +102,7 @@ void run_worker(int socket, const std::function<void(const Assignment&, WorkerPi
   WorkerPipe pipe(socket);
   try {
     for (;;) {
-      if (idle) idle(pipe);
+      if (idle && !pipe.called(leisure_ms)) idle(pipe);
       answer(pipe.wait(), pipe);
     }
   } catch (const std::bad_alloc&) {
