@@ -12,6 +12,25 @@ namespace {
 constexpr double levels[] = {0.06, 0.15, 0.3};
 constexpr size_t most_atlases = 3;  // some 10 to 40 MB each
 
+/// The atlas of all these unknowns, of which those that it does not have change no shape.
+Atlas extended(Atlas atlas, const std::vector<Unknown>& unknowns) {
+  const auto count = Eigen::Index(unknowns.size());
+  atlas.lower.conservativeResize(count), atlas.upper.conservativeResize(count);
+  for (size_t i = atlas.names.size(); i < unknowns.size(); ++i) {
+    atlas.names.push_back(unknowns[i].name);
+    atlas.lower[Eigen::Index(i)] = unknowns[i].lower;
+    atlas.upper[Eigen::Index(i)] = unknowns[i].upper;
+  }
+  for (Atlas::Entry& entry : atlas.entries) {
+    const Eigen::Index known = entry.unknowns.size();
+    entry.unknowns.conservativeResizeLike(Vector::Zero(count));
+    const Matrix by_known = std::move(entry.by_unknown);
+    entry.by_unknown = Matrix::Zero(by_known.rows(), count);
+    entry.by_unknown.leftCols(known) = by_known;
+  }
+  return atlas;
+}
+
 }  // namespace
 
 AtlasMaker::AtlasMaker(const Model& model, const Prior& prior, bool bilateral)
@@ -68,15 +87,24 @@ Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspa
 
 const Atlas& AtlasCache::get(const Model& model, const Prior& prior, bool bilateral, Workspace& ws,
                              const StopAtlas& stop) {
-  const auto unknowns = unknowns_of(model, prior, bilateral);
-  const PriorTerms terms = prior_terms(prior, unknowns);
+  Prior still = prior;
+  still.head_pose.reset(), still.before.reset();  // neither counts for what shapes there are
+  const auto unknowns = unknowns_of(model, still, bilateral);
+  const PriorTerms terms = prior_terms(still, unknowns);
   const auto known = std::find_if(makers_.begin(), makers_.end(),
                                   [&](const AtlasMaker& m) { return m.is_for(unknowns, terms); });
   if (known != makers_.end()) makers_.splice(makers_.begin(), makers_, known);
-  else makers_.emplace_front(model, prior, bilateral);
+  else makers_.emplace_front(model, still, bilateral);
   if (makers_.size() > most_atlases) makers_.pop_back();
-  makers_.front().go_on(model, ws, stop);
-  return makers_.front().atlas();
+  AtlasMaker& maker = makers_.front();
+  maker.go_on(model, ws, stop);
+  if (!prior.head_pose) return maker.atlas();
+  // The pose is the last of the unknowns.
+  const bool fresh =
+      posed_ && posed_of_ == &maker && posed_->entries.size() == maker.atlas().entries.size();
+  if (!fresh) posed_ = extended(maker.atlas(), unknowns_of(model, prior, bilateral));
+  posed_of_ = &maker;
+  return *posed_;
 }
 
 std::vector<const Atlas::Entry*> nearest(const Atlas& atlas, const Comparison& comparison,

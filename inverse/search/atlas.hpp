@@ -57,7 +57,8 @@ std::vector<const Atlas::Entry*> nearest(const Atlas& atlas, const Comparison& c
                                          const std::vector<Unknown>& unknowns,
                                          const PriorTerms& prior);
 
-/// The atlases of one worker, each made when it is first asked for; the last few are kept.
+/// The atlases of one worker, each made when it is first asked for; the last few are kept. A head
+/// pose, which bends no tongue, takes no new one.
 class AtlasCache {
  public:
   /// Valid until the next call. One that was stopped holds what was made so far, and is gone on
@@ -67,6 +68,8 @@ class AtlasCache {
 
  private:
   std::list<AtlasMaker> makers_;  // newest first
+  std::optional<Atlas> posed_;    // the same as one of them, with a head pose
+  const AtlasMaker* posed_of_ = nullptr;
 };
 
 }  // namespace genio

@@ -1,15 +1,15 @@
 #include "server/answer/answer_request.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <new>
 
 #include "forward/base/elapsed.hpp"
 #include "inverse/prior/base/unknowns.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/search/multi_start.hpp"
-#include "inverse/target/tongue_line.hpp"
+#include "server/answer/fill_reply.hpp"
+#include "server/answer/request_placement.hpp"
+#include "server/answer/request_points.hpp"
+#include "server/answer/request_prior.hpp"
 #include "server/dispatch/replies.hpp"
 
 namespace genio {
@@ -22,6 +22,7 @@ struct RequestWorker::State {
   }
   InferWorkspace workspace;
   const TongueLine line;
+  std::optional<TongueReach> reach;  // made where points are first registered
 };
 
 RequestWorker::RequestWorker(const Model& model) : state_(std::make_unique<State>(model)) {}
@@ -34,75 +35,43 @@ void RequestWorker::prepare(const std::function<bool()>& stop) {
 
 namespace {
 
-ContourFrame frame_of(const shape_request_t& r) {
-  ContourFrame frame;
-  frame.number = 1;
-  for (int i = 0; i < r.point_count; ++i) {
-    const size_t k = size_t(i);
-    if (!std::isfinite(r.x_mm[k]) || !std::isfinite(r.z_mm[k]))
-      throw InputError(fmt::format("point {}: x_mm and z_mm must be finite", i + 1));
-    if (std::isinf(r.y_mm[k])) throw InputError(fmt::format("point {}: y_mm is infinite", i + 1));
-    if (!std::isfinite(r.sigma_mm[k]) || r.sigma_mm[k] < 0)
-      throw InputError(fmt::format("point {}: sigma_mm must be 0 or above", i + 1));
-    if (r.kind[k] == "surface" && std::isnan(r.y_mm[k]))
-      throw InputError(fmt::format("point {}: a surface point needs y_mm", i + 1));
-    frame.points.push_back({1e-3 * Vec3(r.x_mm[k], r.y_mm[k], r.z_mm[k]), 1e-3 * r.sigma_mm[k],
-                            r.kind[k].empty() ? "curve" : r.kind[k]});
-  }
-  return frame;
+LaidPoints laid_by(RequestWorker::State& state, const Model& model,
+                   const shape_request_t& request) {
+  return laid_points(model, request, [&]() -> const TongueReach& {
+    if (!state.reach) state.reach = reach_of(model);
+    return *state.reach;
+  });
 }
 
-void fill_trades(const std::vector<TradeOff>& trades, command_reply_t& reply) {
-  for (size_t group = 0; group < trades.size(); ++group)
-    for (const Share& share : trades[group]) {
-      reply.trade_group.push_back(int(group));
-      reply.trade_muscle.push_back(share.name);
-      reply.trade_amount_N.push_back(share.amount);
-    }
-  reply.trade_count = int(reply.trade_group.size());
+Target target_of(const Model& model, const ContourFrame& frame, double noise) {
+  Target target = make_target(model, frame, noise);
+  if (target.empty())
+    throw InputError(frame.note.empty() ? "the target has no points" : frame.note);
+  return target;
 }
 
-void fill(const TongueLine& line, const Answer& a, command_reply_t& reply) {
-  for (const auto& c : a.muscles) {
-    reply.muscle.push_back(c.name);
-    reply.force_N.push_back(c.best);
-    reply.max_force_N.push_back(c.maximum);
-    reply.sd_N.push_back(c.sd);
-    reply.low_N.push_back(c.low);
-    reply.high_N.push_back(c.high);
-    reply.acts.push_back(c.acts);
-    reply.median_N.push_back(c.median);
-    reply.mean_N.push_back(c.mean);
-    reply.information_bits.push_back(c.information_bits);
+/// What recordings in a device's frame have beside others: the head's place is estimated along, and
+/// the model is another speaker's.
+void allow_for(const RequestPlacement& placement, Prior& prior, InferOptions& options) {
+  if (!prior.head_pose && placement.head.shift_sd > 0) prior.head_pose = placement.head;
+  options.model_error = ModelError().of_another_speaker();
+}
+
+/// The answer, unless its time is over already: to register points takes long, too.
+Answer inferred(const Model& model, const Target& target, const Prior& prior,
+                RequestWorker::State& state, const InferOptions& options,
+                const StartOptions& starts) {
+  Answer none;
+  if (options.deadline_s < 0) {
+    none.status = InferStatus::deadline;
+    none.message = "the deadline passed before the first step was done";
+    return none;
   }
-  reply.muscle_count = int(reply.muscle.size());
-  reply.mirrored = a.mirrored.value_or(std::nan(""));
-  reply.mixed_optima = a.mixed_optima;
-  fill_trades(a.unidentified, reply);
-  for (const auto& group : a.unidentified)
-    reply.unidentified.push_back(fmt::format("{}", fmt::join(names(group), "+")));
-  reply.group_count = int(reply.unidentified.size());
-  for (const JointForce& joint : a.joint) {
-    reply.either.push_back(fmt::format("{}", fmt::join(joint.names, "+")));
-    reply.either_acts.push_back(joint.acts);
-    reply.either_low_N.push_back(joint.low), reply.either_high_N.push_back(joint.high);
+  if (options.cancelled && options.cancelled()) {
+    none.status = InferStatus::cancelled, none.message = "cancelled by the requester";
+    return none;
   }
-  reply.either_count = int(reply.either.size());
-  reply.rms_mm = 1e3 * a.rms, reply.max_mm = 1e3 * a.max, reply.chi2_per_dof = a.chi2_per_dof;
-  if (a.shape.size() > 0)
-    for (const Vec2& p : line.sample(a.shape, 80)) {
-      reply.line_x_mm.push_back(1e3 * p[0]);
-      reply.line_z_mm.push_back(1e3 * p[1]);
-    }
-  reply.line_count = int(reply.line_x_mm.size());
-  reply.weight = a.weight;
-  for (const Alternative& other : a.alternatives) {
-    reply.alternative_weight.push_back(other.weight);
-    reply.alternative_rms_mm.push_back(1e3 * other.rms);
-    for (const auto& c : other.muscles) reply.alternative_force_N.push_back(c.best);
-  }
-  reply.alternative_count = int(reply.alternative_weight.size());
-  reply.alternative_force_count = int(reply.alternative_force_N.size());
+  return infer_from_starts(model, target, prior, state.workspace, options, starts);
 }
 
 }  // namespace
@@ -113,14 +82,20 @@ RequestAnswer answer_request(const Model& model, const shape_request_t& request,
   RequestAnswer answer{reply_without_answer(request.id, "failed", ""), {}};
   command_reply_t& reply = answer.reply;
   const Stopwatch watch;
-  const TongueLine& line = worker.state().line;
+  RequestWorker::State& state = worker.state();
   try {
-    const double noise =
-        request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm : point_noise;
-    const Target target = make_target(model, frame_of(request), noise);
-    const Prior prior;
+    Prior prior = prior_of(model, request);
+    const LaidPoints laid = laid_by(state, model, request);
+    fill_placement(laid.placement, reply);
     InferOptions options;
-    options.deadline_s = deadline_s;
+    if (laid.placement) {
+      const RegistrationRecord& record = laid.placement->record;
+      if (!record.judgement.faults.empty() && !record.forced)
+        throw InputError("the points cannot be laid beside the model: " +
+                         faults_text(record.judgement));
+      allow_for(*laid.placement, prior, options);
+    }
+    const Target target = target_of(model, laid.frame, noise_of(request));
     if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;
     const bool bilateral = options.bilateral.value_or(target.midsagittal());
     if (start.unknowns.size() == Eigen::Index(unknowns_of(model, prior, bilateral).size()) &&
@@ -130,25 +105,26 @@ RequestAnswer answer_request(const Model& model, const shape_request_t& request,
     if (hooks.improved)
       options.improved = [&](const Answer& so_far) {
         command_reply_t best = reply_without_answer(request.id, "deadline", "");
-        best.wall_s = watch.seconds(), best.verdict = to_string(so_far.verdict);
-        fill(line, so_far, best);
+        best.wall_s = watch.seconds();
+        fill_answer(state.line, so_far, best);
+        fill_placement(laid.placement, best);
         hooks.improved(std::move(best));
       };
-    const Answer a = infer_from_starts(model, target, prior, worker.state().workspace, options,
-                                       {request.starts});
+    if (deadline_s > 0) options.deadline_s = deadline_s - watch.seconds();
+    const Answer a = inferred(model, target, prior, state, options, {request.starts});
     reply.status = to_string(a.status);
     reply.message = a.message;
-    reply.verdict = to_string(a.verdict);
     reply.ipopt_iterations = a.iterations;
     reply.factorizations = a.factorizations;
-    reply.wall_s = a.wall_s;
-    fill(line, a, reply);
+    fill_answer(state.line, a, reply);
+    fill_placement(laid.placement, reply);
     if (a.status == InferStatus::converged) answer.state = {request.prior, a.activations, a.shape};
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    reply.message = e.what();
+    reply.message = reason_text(e.what());
   }
+  reply.wall_s = watch.seconds();
   return answer;
 }
 
