@@ -15,7 +15,7 @@ from .exchange import Exchange
 from .messages import cancel_t
 from .pending import Pending
 from .request import Point, RequestOptions, encode_request, make_request
-from .seal import NoSeal
+from .seal import seal_of
 from .stream import Stream
 
 MAX_ID_CHARACTERS = 200
@@ -33,18 +33,18 @@ class Client:
             answer = client.invert(points)
     """
 
-    def __init__(self, url: str | None = None, name: str | None = None, key: None = None,
+    def __init__(self, url: str | None = None, name: str | None = None,
+                 key: bytes | str | os.PathLike[str] | None = None,
                  connect_timeout_s: float = 5.0):
         """`url`: of the hub; else LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700. `name`: under which
         answers come, 1 to 40 letters, digits, '_' or '-'; one that nobody has unless given. Only a
-        client of the same name may cancel. Raises InvalidInput for what cannot be used, HubError
-        where no hub answers within `connect_timeout_s`."""
+        client of the same name may cancel. `key`: the file that `genio key` made, or its 32 bytes,
+        for a server with a key; answers are believed only with its seal then. Raises InvalidInput
+        for what cannot be used, HubError where no hub answers within `connect_timeout_s`."""
         self.name = name or f"py{os.getpid()}-{secrets.token_hex(8)}"
         if not re.fullmatch(r"[A-Za-z0-9_-]{1,40}", self.name):
             raise InvalidInput(f"name '{self.name}': expected 1 to 40 letters, digits, '_' or '-'")
-        if key is not None:
-            raise InvalidInput("key: this version knows no keys")
-        self._exchange = Exchange(choose_url(url), self.name, NoSeal())
+        self._exchange = Exchange(choose_url(url), self.name, seal_of(key))
         # A name may be used again, the ids of an earlier run may not.
         self._id_prefix = f"{self.name}-{secrets.token_hex(4)}"
         self._asked = 0
@@ -58,7 +58,7 @@ class Client:
 
     def close(self) -> None:
         """What was sent still arrives."""
-        self._exchange.link.close()
+        self._exchange.close()
 
     def invert(self, points: Sequence[Point], *, timeout_s: float = 120.0,
                progress: OnProgress | None = None, id: str = "",
@@ -87,8 +87,9 @@ class Client:
         if request.id in self._exchange.requests:
             raise InvalidInput(f"id '{request.id}': it was asked already, and not taken yet")
         pending = Pending(request.id, "GENIO_REQUEST", encode_request(request), progress)
-        self._exchange.requests[request.id] = pending
-        self._exchange.send_due()
+        with self._exchange.alone():
+            self._exchange.requests[request.id] = pending
+            self._exchange.send_due()
         return request.id
 
     def answer(self, id: str, *, timeout_s: float = 120.0) -> Answer:
@@ -98,9 +99,10 @@ class Client:
         if not request:
             raise InvalidInput(f"id '{id}': nothing was asked under it, or the answer was taken")
         until = time.monotonic() + _limit(timeout_s, "timeout_s")
-        while not self._exchange.is_over(id, until):
-            self._wait(until, f"no reply to '{id}' within {timeout_s:g} s", id)
-        self.forget(id)
+        with self._exchange.alone():
+            while not self._exchange.is_over(id, until):
+                self._wait(until, f"no reply to '{id}' within {timeout_s:g} s", id)
+            self.forget(id)
         answer = request.answer or request.refusal
         assert answer
         return answer
@@ -121,37 +123,40 @@ class Client:
         withdraw. Raises NoReply when nothing came in time."""
         _check_id(id)
         until = time.monotonic() + _limit(timeout_s, "timeout_s")
-        request = self._exchange.requests.get(id)
-        if request and not request.answer:
-            request.answer = request.refusal  # the service has nothing to withdraw
-        if request and request.answer:
-            return request.answer
-        message = cancel_t()
-        message.utime, message.id, message.client = _now_us(), id, self.name
-        cancel = Pending(id, "GENIO_CANCEL", wire.encode(message))
-        self._exchange.cancels[id] = cancel
-        try:
-            while not cancel.answer:
-                self._wait(until, f"no reply to the cancel of '{id}' within {timeout_s:g} s", id)
-            return cancel.answer
-        finally:
-            self._exchange.cancels.pop(id, None)
+        with self._exchange.alone():
+            request = self._exchange.requests.get(id)
+            if request and not request.answer:
+                request.answer = request.refusal  # the service has nothing to withdraw
+            if request and request.answer:
+                return request.answer
+            message = cancel_t()
+            message.utime, message.id, message.client = _now_us(), id, self.name
+            cancel = Pending(id, "GENIO_CANCEL", wire.encode(message))
+            self._exchange.cancels[id] = cancel
+            complaint = f"no reply to the cancel of '{id}' within {timeout_s:g} s"
+            try:
+                while not cancel.answer:
+                    self._wait(until, complaint, id)
+                return cancel.answer
+            finally:
+                self._exchange.cancels.pop(id, None)
 
     def status(self, *, timeout_s: float = 5.0) -> Status:
         """What the server is doing. Raises NoReply when nothing came in time."""
         until = time.monotonic() + _limit(timeout_s, "timeout_s")
         exchange, asked_at = self._exchange, -math.inf
-        exchange.status = None
-        exchange.link.subscribe("GENIO_STATUS")
-        try:
-            while not exchange.status:
-                if exchange.link.connected and time.monotonic() >= asked_at + STATUS_PAUSE_S:
-                    exchange.publish("GENIO_ASK_STATUS", b"\0")
-                    asked_at = time.monotonic()
-                self._wait(until, f"no status within {timeout_s:g} s")
-            return status_of(exchange.status)
-        finally:
-            exchange.link.unsubscribe("GENIO_STATUS")
+        with exchange.alone():
+            exchange.status = None
+            exchange.link.subscribe("GENIO_STATUS")
+            try:
+                while not exchange.status:
+                    if exchange.link.connected and time.monotonic() >= asked_at + STATUS_PAUSE_S:
+                        exchange.publish("GENIO_ASK_STATUS", b"\0")
+                        asked_at = time.monotonic()
+                    self._wait(until, f"no status within {timeout_s:g} s")
+                return status_of(exchange.status)
+            finally:
+                exchange.link.unsubscribe("GENIO_STATUS")
 
     def _wait(self, until: float, complaint: str, id: str = "") -> None:
         """For one message at most. Raises NoReply once the time has passed."""

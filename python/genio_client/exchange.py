@@ -32,13 +32,13 @@ class Exchange:
         self._name, self._seal = name, seal
         self._seen_connections = 0
         self._unreadable = ""
-        self._in_callback = False
+        self._in_callback = self._closed = False
         self._turn = threading.RLock()
         self._reply_channel = f"GENIO_REPLY.{name}"
         self._progress_channel = f"GENIO_PROGRESS.{name}"
-        # A dot in a pattern stands for any character.
+        # The dot of a pattern stands for any character; without other signs it is cheap for a hub.
         for channel in (self._reply_channel, self._progress_channel):
-            self.link.subscribe(channel.replace(".", r"\."))
+            self.link.subscribe(channel)
 
     def connect(self, longest_s: float) -> None:
         """Raises HubError where no hub answers in that time."""
@@ -46,6 +46,11 @@ class Exchange:
         while not self.link.connect(until - time.monotonic()):
             if self.link.is_no_hub or time.monotonic() >= until:
                 raise HubError(f"{self.link.url}: {self.link.trouble}")
+
+    def close(self) -> None:
+        """What was published still arrives."""
+        self._closed = True
+        self.link.close()
 
     def trouble(self) -> str:
         """What may be the reason that nothing comes."""
@@ -67,7 +72,7 @@ class Exchange:
 
     def step(self, until: float) -> bool:
         """Sends what is due and takes one message, if one comes until then."""
-        with self._alone():
+        with self.alone():
             if not self.link.connect(min(until - time.monotonic(), TURN_S)):
                 return False
             self.send_due()
@@ -79,7 +84,7 @@ class Exchange:
 
     def send_due(self) -> None:
         """Requests before cancels, which mean them, and in the order in which they were asked."""
-        with self._alone():
+        with self.alone():
             if self.link.connections != self._seen_connections:
                 # What was on its way when the connection ended may be lost.
                 self._seen_connections = self.link.connections
@@ -100,10 +105,13 @@ class Exchange:
         return [p for p in waiting if not p.answer]
 
     @contextmanager
-    def _alone(self) -> Iterator[None]:
+    def alone(self) -> Iterator[None]:
+        """Raises GenioError where another thread is at it, or after close()."""
         if not self._turn.acquire(blocking=False):
             raise GenioError("another thread uses this client now; give each a client of its own")
         try:
+            if self._closed:
+                raise GenioError("the client was closed")
             yield
         finally:
             self._turn.release()

@@ -7,6 +7,7 @@ from unittest import mock
 
 from fake_hub import FakeHub, answering, cancel_of, request_of
 from genio_client import Client, GenioError, HubError, InvalidInput, NoReply, messages, wire
+from genio_client.seal import seal_of
 
 POINTS = [(60.0, 90.0), (50.0, 95.0)]
 QUICK = mock.patch("genio_client.pending.PAUSES_S", (0.05, 0.2))
@@ -154,8 +155,8 @@ class Asking(unittest.TestCase):
         with FakeHub(second_time) as hub, Client(hub.url) as client:
             self.assertTrue(client.invert(POINTS).converged)
             self.assertEqual(hub.accepted, 3)
-            self.assertEqual(hub.subscribed[-2:], [rf"GENIO_REPLY\.{client.name}",
-                                                   rf"GENIO_PROGRESS\.{client.name}"])
+            self.assertEqual(hub.subscribed[-2:], [f"GENIO_REPLY.{client.name}",
+                                                   f"GENIO_PROGRESS.{client.name}"])
 
     def test_bytes_that_are_no_message_are_passed_over(self):
         def noisy(hub, channel, payload):
@@ -221,9 +222,22 @@ class Asking(unittest.TestCase):
             thread.start()
             waiting.wait()
             time.sleep(0.1)
-            with self.assertRaisesRegex(GenioError, "thread"):
-                client.status(timeout_s=1)
+            for call in (client.status, lambda: client.ask(POINTS, id="b"),
+                         lambda: client.cancel("a"), lambda: client.answer("a")):
+                with self.assertRaisesRegex(GenioError, "thread"):
+                    call()
             thread.join()
+            self.assertNotIn("b", [request_of(p).id for p in hub.of("GENIO_REQUEST")])
+
+    def test_a_closed_client_says_so(self):
+        with FakeHub() as hub:
+            with Client(hub.url) as client:
+                pass
+            for call in (client.status, lambda: client.invert(POINTS), lambda: client.cancel("a")):
+                with self.assertRaisesRegex(GenioError, "closed"):
+                    call()
+            client.close()
+            self.assertEqual(hub.accepted, 1)
 
 
 class Refusing(unittest.TestCase):
@@ -249,6 +263,47 @@ class Refusing(unittest.TestCase):
     def test_a_refusal_that_outlasts_the_limit_is_the_answer(self):
         with FakeHub(answering("refused", retry_after_s=100.0)) as hub, Client(hub.url) as client:
             self.assertEqual(client.invert(POINTS, timeout_s=50).status, "refused")
+
+
+class WithAKey(unittest.TestCase):
+    KEY = bytes(range(32))
+
+    def hub_with(self, key):
+        """What comes without its seal is not read; what it sends is sealed."""
+        seal = seal_of(key)
+        def on_message(hub, channel, payload):
+            message = seal.unwrap(channel, payload)
+            if channel == "GENIO_REQUEST":
+                request, reply = request_of(message), messages.command_reply_t()
+                reply.id, reply.status = request.id, "converged"
+                channel = f"GENIO_REPLY.{request.client}"
+                sealed = seal.wrap(channel, wire.encode(reply))
+                changed = sealed[:-1] + bytes([sealed[-1] ^ 1])
+                hub.send(channel, changed)
+                hub.send(channel, sealed)
+        return FakeHub(on_message)
+
+    def test_the_key_opens_what_the_key_sealed(self):
+        with self.hub_with(self.KEY) as hub, Client(hub.url, key=self.KEY) as client:
+            self.assertTrue(client.invert(POINTS).converged)
+
+    @QUICK
+    def test_a_request_is_sealed_anew_each_time(self):
+        with FakeHub() as hub, Client(hub.url, key=self.KEY) as client:
+            with self.assertRaises(NoReply):
+                client.invert(POINTS, timeout_s=1)
+            sent = hub.of("GENIO_REQUEST")
+            self.assertGreater(len(sent), 1)
+            self.assertEqual(len(set(sent)), len(sent))
+
+    def test_an_answer_without_the_seal_is_not_believed(self):
+        def faker(hub, channel, payload):
+            reply = messages.command_reply_t()
+            reply.id, reply.status = "a", "converged"
+            hub.send(f"GENIO_REPLY.{client.name}", wire.encode(reply))
+        with FakeHub(faker) as hub, Client(hub.url, key=self.KEY) as client:
+            with self.assertRaisesRegex(NoReply, "no seal"):
+                client.invert(POINTS, id="a", timeout_s=1)
 
 
 class Cancelling(unittest.TestCase):
