@@ -40,12 +40,12 @@ def eventually(condition):
 class Server:
     """`genio serve` on a port of its own, which it keeps when it is started again."""
 
-    def __init__(self, folder, *options):
+    def __init__(self, folder, *options, key=None):
         with socket.create_server(("127.0.0.1", 0)) as listener:
             self.port = listener.getsockname()[1]
         self.url = f"tcpq://127.0.0.1:{self.port}"
         self._log = folder / f"serve{self.port}.log"
-        self._options = options
+        self._options, self._key = options, key
         self._start()
         self._await()
 
@@ -57,7 +57,7 @@ class Server:
         until = time.monotonic() + PATIENCE_S
         while True:
             try:
-                with Client(self.url, connect_timeout_s=1) as client:
+                with Client(self.url, key=self._key, connect_timeout_s=1) as client:
                     client.status(timeout_s=5)
                 return
             except (HubError, NoReply) as error:
@@ -97,8 +97,8 @@ class Serving(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def serve(self, *options):
-        server = Server(self.folder, *options)
+    def serve(self, *options, key=None):
+        server = Server(self.folder, *options, key=key)
         self.addCleanup(server.kill)
         return server
 
