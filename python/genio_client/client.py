@@ -146,6 +146,7 @@ class Client:
         until = time.monotonic() + _limit(timeout_s, "timeout_s")
         exchange, asked_at = self._exchange, -math.inf
         with exchange.alone():
+            exchange.look()  # one that came after the last time is old
             exchange.status = None
             exchange.link.subscribe("GENIO_STATUS")
             try:

@@ -434,6 +434,18 @@ class Status(unittest.TestCase):
                 self.assertEqual(client.status().models, {"m": "ab"})
             self.assertEqual(hub.subscribed.count("GENIO_STATUS"), 2)
 
+    def test_a_status_that_came_too_late_is_not_taken_for_a_new_one(self):
+        def two_at_once(hub, channel, payload):
+            if channel == "GENIO_ASK_STATUS":
+                for k in range(2):
+                    s = messages.server_status_t()
+                    s.received = 2 * len(hub.of(channel)) + k
+                    hub.send("GENIO_STATUS", wire.encode(s))
+        with FakeHub(two_at_once) as hub, Client(hub.url) as client:
+            self.assertEqual(client.status().raw.received, 2)
+            time.sleep(0.2)
+            self.assertEqual(client.status().raw.received, 4)
+
 
 if __name__ == "__main__":
     unittest.main()
