@@ -26,9 +26,31 @@ struct Atlas {
 using StopAtlas = std::function<bool()>;
 
 /// Takes a forward solve an entry, two or three a muscle. States without an equilibrium are left
-/// out, and what would come after `stop` said so.
-Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspace& ws,
-                 const StopAtlas& stop = {});
+/// out.
+class AtlasMaker {
+ public:
+  AtlasMaker(const Model& model, const Prior& prior, bool bilateral);
+
+  /// True for an atlas of these unknowns within the same bounds.
+  bool is_for(const std::vector<Unknown>& unknowns, const PriorTerms& terms) const;
+  /// Goes on until all entries are there, or `stop` says so after some; true once all are there.
+  bool go_on(const Model& model, Workspace& ws, const StopAtlas& stop = {});
+  const Atlas& atlas() const { return atlas_; }
+
+ private:
+  bool add(const Model& model, const Vector& z, const Positions& start, Workspace& ws);
+
+  std::vector<Unknown> unknowns_;
+  Vector rest_;
+  struct Single {
+    Eigen::Index muscle;
+    size_t level;
+  };
+  std::vector<Single> left_;  ///< that are to come, last first
+  Atlas atlas_;
+};
+
+Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspace& ws);
 
 /// Entries by rising misfit and prior together.
 std::vector<const Atlas::Entry*> nearest(const Atlas& atlas, const Comparison& comparison,
@@ -38,13 +60,13 @@ std::vector<const Atlas::Entry*> nearest(const Atlas& atlas, const Comparison& c
 /// The atlases of one worker, each made when it is first asked for; the last few are kept.
 class AtlasCache {
  public:
-  /// Valid until the next call. One that was stopped is not whole, and is made again next time.
+  /// Valid until the next call. One that was stopped holds what was made so far, and is gone on
+  /// with when it is asked for again.
   const Atlas& get(const Model& model, const Prior& prior, bool bilateral, Workspace& ws,
                    const StopAtlas& stop = {});
 
  private:
-  std::list<Atlas> atlases_;  // newest first
-  Atlas unfinished_;
+  std::list<AtlasMaker> makers_;  // newest first
 };
 
 }  // namespace genio

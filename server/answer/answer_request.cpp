@@ -16,12 +16,9 @@ namespace genio {
 
 struct RequestWorker::State {
   explicit State(const Model& m) : workspace(m), line(m) {
-    const auto make_atlas_of = [](TongueState& tongue, bool bilateral) {
-      tongue.atlas.get(*tongue.model, Prior{}, bilateral, tongue.workspace);
-    };
-    if (TongueState* half = workspace.half(Prior{})) make_atlas_of(*half, true);
-    else make_atlas_of(workspace.whole(), true);
-    make_atlas_of(workspace.whole(), false);
+    TongueState* half = workspace.half(Prior{});
+    TongueState& tongue = half ? *half : workspace.whole();
+    tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace);
   }
   InferWorkspace workspace;
   const TongueLine line;
@@ -29,6 +26,11 @@ struct RequestWorker::State {
 
 RequestWorker::RequestWorker(const Model& model) : state_(std::make_unique<State>(model)) {}
 RequestWorker::~RequestWorker() = default;
+
+void RequestWorker::prepare(const std::function<bool()>& stop) {
+  TongueState& tongue = state_->workspace.whole();
+  tongue.atlas.get(*tongue.model, Prior{}, false, tongue.workspace, stop);
+}
 
 namespace {
 

@@ -114,7 +114,7 @@ TEST_F(Routes, ValleysHoldTheTruthAmongTheDeepest) {
   }
 }
 
-TEST_F(Routes, AnAtlasIsMadeOnceForEachSetOfUnknownsAndAStoppedOneAgain) {
+TEST_F(Routes, AnAtlasIsMadeOnceForEachSetOfUnknownsAlsoInParts) {
   TongueState& tongue = *all.half(Prior{});
   const auto made = [&](const Prior& prior, const StopAtlas& stop = {}) {
     const Stopwatch watch;
@@ -127,7 +127,13 @@ TEST_F(Routes, AnAtlasIsMadeOnceForEachSetOfUnknownsAndAStoppedOneAgain) {
   int asked = 0;
   const auto stopped = made(Prior{}, [&] { return ++asked > 3; });
   EXPECT_LT(stopped.first, 6u);
-  const auto first = made(Prior{}), other = made(fixed), again = made(Prior{});
+  const Atlas whole = make_atlas(*tongue.model, Prior{}, true, tongue.workspace);
+  const auto first = made(Prior{});
+  ASSERT_EQ(first.first, whole.entries.size());
+  const Atlas& parts = tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace);
+  for (size_t k = 0; k < whole.entries.size(); ++k)
+    EXPECT_LT((parts.entries[k].shape - whole.entries[k].shape).cwiseAbs().maxCoeff(), 1e-9);
+  const auto other = made(fixed), again = made(Prior{});
   EXPECT_GT(first.first, stopped.first);
   EXPECT_LT(other.first, first.first);
   EXPECT_EQ(again.first, first.first);

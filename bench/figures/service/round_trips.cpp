@@ -18,6 +18,12 @@ namespace {
 
 constexpr double patience_s = 120;
 
+double quantile_of(std::vector<double> values, double p) {
+  if (values.empty()) throw std::runtime_error("no reply came");
+  std::sort(values.begin(), values.end());
+  return values[size_t(p * double(values.size() - 1))];
+}
+
 /// Work of several clients at once, each in a thread of its own.
 void together(const std::string& url, int clients, const std::function<void(Client&, int)>& work) {
   std::vector<std::thread> threads;
@@ -43,11 +49,9 @@ Json overheads(const std::string& url, const std::vector<shape_request_t>& quest
     if (k == count / 10)
       if (const auto s = client.status(patience_s)) first_mb = s->memory_mb;
   }
-  if (overhead.empty()) throw std::runtime_error("no reply came");
-  std::sort(overhead.begin(), overhead.end());
   const auto last = client.status(patience_s);
-  return {{"overhead_ms_median", overhead[overhead.size() / 2]},
-          {"overhead_ms_p99", overhead[size_t(0.99 * double(overhead.size() - 1))]},
+  return {{"overhead_ms_median", quantile_of(overhead, 0.5)},
+          {"overhead_ms_p99", quantile_of(overhead, 0.99)},
           {"memory_mb_first", first_mb},
           {"memory_mb_last", last ? last->memory_mb : std::nan("")}};
 }
@@ -87,28 +91,36 @@ Json deadlines(const std::string& url, const shape_request_t& question, int coun
       late.push_back(1e3 * (took - r.deadline_s));
     }
   });
-  std::sort(late.begin(), late.end());
   return {{"deadlines", count},
           {"deadlines_met", double(met) / count},
-          {"deadline_late_ms_p99", late[size_t(0.99 * double(late.size() - 1))]}};
+          {"deadline_late_ms_p99", quantile_of(late, 0.99)}};
 }
 
-double wait_beside_long(const std::string& url, const shape_request_t& lasting,
-                        const std::vector<shape_request_t>& questions) {
+Json beside_long(const std::string& url, const shape_request_t& lasting,
+                 const std::vector<shape_request_t>& questions) {
   Client client(url), other(url);
   client.status(patience_s);
   double longest = 0;
+  std::vector<double> status_ms;
   std::thread computing([&] {
     shape_request_t r = lasting;
     r.deadline_s = 5;
     other.request(r, patience_s);
   });
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  for (size_t k = 0; k < std::min<size_t>(10, questions.size()); ++k)
+  for (size_t k = 0; k < std::min<size_t>(10, questions.size()); ++k) {
     if (const auto reply = client.request(questions[k], patience_s))
       longest = std::max(longest, 1e3 * reply->waited_s);
+    for (int n = 0; n < 10; ++n) {
+      const Stopwatch watch;
+      client.status(patience_s);
+      status_ms.push_back(1e3 * watch.seconds());
+    }
+  }
   computing.join();
-  return longest;
+  return {{"short_waited_ms", longest},
+          {"status_ms_median", quantile_of(status_ms, 0.5)},
+          {"status_ms_p99", quantile_of(status_ms, 0.99)}};
 }
 
 }  // namespace genio::bench

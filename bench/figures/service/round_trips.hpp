@@ -20,8 +20,9 @@ double throughput(const std::string& url, const std::vector<shape_request_t>& qu
 /// and how late the latest was [ms].
 Json deadlines(const std::string& url, const shape_request_t& question, int count, unsigned seed);
 
-/// The longest that short requests wait for their turn beside one that computes on [ms].
-double wait_beside_long(const std::string& url, const shape_request_t& lasting,
-                        const std::vector<shape_request_t>& questions);
+/// Beside a request that computes on: the longest that short ones wait for their turn, and that a
+/// status takes [ms]: `short_waited_ms`, `status_ms_median`, `status_ms_p99`.
+Json beside_long(const std::string& url, const shape_request_t& lasting,
+                 const std::vector<shape_request_t>& questions);
 
 }  // namespace genio::bench

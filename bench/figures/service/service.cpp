@@ -53,7 +53,7 @@ Json run_service(const BenchOptions& o, const Progress& progress) {
   }
   if (asked_for("deadlines")) {
     figures.update(deadlines(two.url(), lasting, std::max(20, requests / 4), o.seed));
-    figures["short_waited_ms"] = wait_beside_long(two.url(), lasting, questions);
+    figures.update(beside_long(two.url(), lasting, questions));
     progress("deadlines are measured");
   }
   if (asked_for("kills")) {
