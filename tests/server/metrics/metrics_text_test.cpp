@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <limits>
 #include <map>
 #include <regex>
 #include <sstream>
+
+#include "tests/runs/temporary_folder.hpp"
 
 namespace genio {
 namespace {
@@ -123,8 +124,7 @@ TEST(MetricsText, AModelWithoutADigestIsListed) {
 }
 
 TEST(MetricsText, EveryNameIsInThePageOfOperating) {
-  std::ifstream file(GENIO_SOURCE_DIR "/docs/operating.md");
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string page = test::content_of(GENIO_SOURCE_DIR "/docs/operating.md");
   ASSERT_FALSE(page.empty());
   const HubCounts hub = some_counts();
   for (const auto& [name, family] : read_metrics(metrics_text(some_status(), &hub)))

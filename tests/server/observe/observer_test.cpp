@@ -1,11 +1,9 @@
 #include "server/observe/observer.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
-
+#include "tests/runs/temporary_folder.hpp"
 #include "tests/server/metrics/http_client.hpp"
 #include "tests/server/observe/manager_socket.hpp"
 
@@ -13,8 +11,9 @@ namespace genio {
 namespace {
 
 TEST(Observer, EverybodyIsToldOfAServicesLife) {
-  std::string path = testing::TempDir() + "genio_observer_XXXXXX";
-  const Descriptor file(mkstemp(path.data()));
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path() + "/log";
+  const Descriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
   test::ManagerSocket socket;
   ServiceManager manager(socket.address(), 10);
   MetricsEndpoint metrics(0);
@@ -46,11 +45,9 @@ TEST(Observer, EverybodyIsToldOfAServicesLife) {
   observer.stopped(status, {1, 2, 3});
 
   log.reset();
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  unlink(path.c_str());
-  EXPECT_NE(text.str().find(" info serving version=1.2.3 "), std::string::npos);
-  EXPECT_NE(text.str().find(" info stopped finished=1 journalled=2 refused=3 "), std::string::npos);
+  const std::string text = test::content_of(path);
+  EXPECT_NE(text.find(" info serving version=1.2.3 "), text.npos) << text;
+  EXPECT_NE(text.find(" info stopped finished=1 journalled=2 refused=3 "), text.npos) << text;
 }
 
 TEST(Observer, WhoHasNobodyToTellIsSilent) {

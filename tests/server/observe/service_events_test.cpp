@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "server/log/log_line.hpp"
+#include "tests/runs/temporary_folder.hpp"
 
 namespace genio {
 namespace {
@@ -58,8 +57,7 @@ TEST(ServiceEvents, TheFirstWordSaysWhatIsServed) {
 }
 
 TEST(ServiceEvents, EveryEventIsInThePageOfOperating) {
-  std::ifstream file(GENIO_SOURCE_DIR "/docs/operating.md");
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string page = test::content_of(GENIO_SOURCE_DIR "/docs/operating.md");
   ASSERT_FALSE(page.empty());
   for (int k = 0; k < int(LogKind::count); ++k)
     EXPECT_NE(page.find(std::string("| `") + name_of(LogKind(k)) + "` |"), page.npos)
