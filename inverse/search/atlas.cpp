@@ -10,10 +10,19 @@ namespace genio {
 namespace {
 
 constexpr double levels[] = {0.06, 0.15, 0.3};
+constexpr size_t most_atlases = 3;  // some 10 to 40 MB each
+
+bool is_for(const Atlas& atlas, const std::vector<Unknown>& unknowns, const PriorTerms& terms) {
+  return atlas.names.size() == unknowns.size() &&
+         std::equal(unknowns.begin(), unknowns.end(), atlas.names.begin(),
+                    [](const Unknown& c, const auto& name) { return c.name == name; }) &&
+         atlas.lower == terms.lower && atlas.upper == terms.upper;
+}
 
 }  // namespace
 
-Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspace& ws) {
+Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspace& ws,
+                 const StopAtlas& stop) {
   const auto unknowns = unknowns_of(model, prior, bilateral);
   const PriorTerms terms = prior_terms(prior, unknowns);
   const Parameters base = default_parameters(model);
@@ -38,6 +47,7 @@ Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspa
     if (unknowns[size_t(i)].kind != Unknown::Kind::muscle || terms.fixed(i)) continue;
     Positions from = atlas.entries.front().shape;
     for (const double level : levels) {
+      if (stop && stop()) return atlas;
       Vector z = rest;
       z[i] = level;
       if (!add(z, from)) break;
@@ -47,16 +57,21 @@ Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspa
   return atlas;
 }
 
-const Atlas& AtlasCache::get(const Model& model, const Prior& prior, bool bilateral,
-                             Workspace& ws) {
+const Atlas& AtlasCache::get(const Model& model, const Prior& prior, bool bilateral, Workspace& ws,
+                             const StopAtlas& stop) {
   const auto unknowns = unknowns_of(model, prior, bilateral);
   const PriorTerms terms = prior_terms(prior, unknowns);
-  const bool same = atlas_ && atlas_->names.size() == unknowns.size() &&
-                    std::equal(unknowns.begin(), unknowns.end(), atlas_->names.begin(),
-                               [](const Unknown& c, const auto& name) { return c.name == name; }) &&
-                    atlas_->lower == terms.lower && atlas_->upper == terms.upper;
-  if (!same) atlas_ = make_atlas(model, prior, bilateral, ws);
-  return *atlas_;
+  const auto known = std::find_if(atlases_.begin(), atlases_.end(),
+                                  [&](const Atlas& a) { return is_for(a, unknowns, terms); });
+  if (known != atlases_.end()) {
+    atlases_.splice(atlases_.begin(), atlases_, known);
+    return atlases_.front();
+  }
+  Atlas made = make_atlas(model, prior, bilateral, ws, stop);
+  if (stop && stop()) return unfinished_ = std::move(made);
+  atlases_.push_front(std::move(made));
+  if (atlases_.size() > most_atlases) atlases_.pop_back();
+  return atlases_.front();
 }
 
 std::vector<const Atlas::Entry*> nearest(const Atlas& atlas, const Comparison& comparison,

@@ -1,6 +1,9 @@
 #pragma once
 // Shapes the model is known to reach: where to start from when nothing better is known.
 
+#include <functional>
+#include <list>
+
 #include "inverse/shape/infer.hpp"
 #include "inverse/target/comparison.hpp"
 
@@ -19,22 +22,29 @@ struct Atlas {
   Vector lower, upper;             ///< their bounds
 };
 
+/// Asked between solves; true ends the work.
+using StopAtlas = std::function<bool()>;
+
 /// Takes a forward solve an entry, two or three a muscle. States without an equilibrium are left
-/// out.
-Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspace& ws);
+/// out, and what would come after `stop` said so.
+Atlas make_atlas(const Model& model, const Prior& prior, bool bilateral, Workspace& ws,
+                 const StopAtlas& stop = {});
 
 /// Entries by rising misfit and prior together.
 std::vector<const Atlas::Entry*> nearest(const Atlas& atlas, const Comparison& comparison,
                                          const std::vector<Unknown>& unknowns,
                                          const PriorTerms& prior);
 
-/// The atlas of one worker, made when it is first asked for and again for other unknowns.
+/// The atlases of one worker, each made when it is first asked for; the last few are kept.
 class AtlasCache {
  public:
-  const Atlas& get(const Model& model, const Prior& prior, bool bilateral, Workspace& ws);
+  /// Valid until the next call. One that was stopped is not whole, and is made again next time.
+  const Atlas& get(const Model& model, const Prior& prior, bool bilateral, Workspace& ws,
+                   const StopAtlas& stop = {});
 
  private:
-  std::optional<Atlas> atlas_;
+  std::list<Atlas> atlases_;  // newest first
+  Atlas unfinished_;
 };
 
 }  // namespace genio

@@ -54,22 +54,21 @@ LogEvent resumed_event(int64_t requests) {
   return {LogKind::resumed, LogLevel::info, {{"requests", requests}}};
 }
 
-LogEvent answered_event(const std::string& client, const command_reply_t& r) {
+LogEvent reply_event(const std::string& client, const command_reply_t& r) {
+  if (r.status == "refused")
+    return {LogKind::refused,
+            LogLevel::info,
+            {{"id", r.id}, {"client", client}, {"reason", r.message}}};
   LogEvent event{LogKind::answered, r.status == "failed" ? LogLevel::warning : LogLevel::info};
   event.fields = {{"id", r.id}, {"client", client}, {"status", r.status}};
   add_text(event, "verdict", r.verdict);
   if (!r.verdict.empty()) event.fields.push_back({"rms_mm", r.rms_mm});
   event.fields.push_back({"seconds", r.wall_s});
-  if (r.waited_s > 0) event.fields.push_back({"waited_s", r.waited_s});
+  event.fields.push_back({"waited_s", r.waited_s});
   if (r.tries > 1) event.fields.push_back({"tries", int64_t(r.tries)});
   add_text(event, "model", r.model);
   add_text(event, "reason", r.message);
   return event;
-}
-
-LogEvent refused_event(const std::string& client, const std::string& id,
-                       const std::string& reason) {
-  return {LogKind::refused, LogLevel::info, {{"id", id}, {"client", client}, {"reason", reason}}};
 }
 
 LogEvent dropped_event(const std::string& channel, size_t bytes, const std::string& reason) {
@@ -78,11 +77,8 @@ LogEvent dropped_event(const std::string& channel, size_t bytes, const std::stri
           {{"channel", channel}, {"bytes", int64_t(bytes)}, {"reason", reason}}};
 }
 
-LogEvent worker_replaced_event(int process, const std::string& id, const std::string& reason) {
-  LogEvent event{LogKind::worker_replaced, LogLevel::warning, {{"process", int64_t(process)}}};
-  add_text(event, "id", id);
-  add_text(event, "reason", reason);
-  return event;
+LogEvent worker_replaced_event(const std::string& id, const std::string& reason) {
+  return {LogKind::worker_replaced, LogLevel::warning, {{"id", id}, {"reason", reason}}};
 }
 
 LogEvent journal_failed_event(const std::string& reason) {

@@ -16,7 +16,7 @@ LogEvent serving_event(const server_status_t& status, std::vector<LogField> fact
 
 /// What became of the requests that were there when a server was told to stop.
 struct DrainCounts {
-  int64_t finished = 0;    ///< they were computed, and have a reply
+  int64_t finished = 0;    ///< they have a reply
   int64_t journalled = 0;  ///< the journal keeps them for the next server
   int64_t refused = 0;     ///< nobody keeps them, and the clients were told
 };
@@ -26,13 +26,12 @@ DrainCounts drain_counts(const server_status_t& told, const server_status_t& las
 LogEvent stopped_event(const server_status_t& last, const DrainCounts& drain, double drain_s);
 
 LogEvent resumed_event(int64_t requests);
-/// A warning where the reply is `failed`.
-LogEvent answered_event(const std::string& client, const command_reply_t& reply);
-LogEvent refused_event(const std::string& client, const std::string& id, const std::string& reason);
+/// `refused` where nothing was computed, else `answered`; a warning where the reply is `failed`.
+LogEvent reply_event(const std::string& client, const command_reply_t& reply);
 /// A message of so many bytes that nobody could be told about.
 LogEvent dropped_event(const std::string& channel, size_t bytes, const std::string& reason);
-/// `id`: of the request that it worked on, if any.
-LogEvent worker_replaced_event(int process, const std::string& id, const std::string& reason);
+/// `id`: of the request that it worked on.
+LogEvent worker_replaced_event(const std::string& id, const std::string& reason);
 LogEvent journal_failed_event(const std::string& reason);
 
 }  // namespace genio

@@ -30,7 +30,8 @@ struct WireLayout<shape_request_t> {
 };
 template <>
 struct WireLayout<command_reply_t> {
-  static constexpr const char* fields = "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD";
+  static constexpr const char* fields =
+      "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "forward/base/elapsed.hpp"
 #include "inverse/search/full_space.hpp"
 #include "inverse/search/global_starts.hpp"
 #include "inverse/shape/objective.hpp"
@@ -111,6 +112,26 @@ TEST_F(Routes, ValleysHoldTheTruthAmongTheDeepest) {
     EXPECT_GE(value(found[k]), value(found[k - 1]) - 1e-9);
     EXPECT_GT((found[k].unknowns - found[0].unknowns).cwiseAbs().maxCoeff(), 0.05);
   }
+}
+
+TEST_F(Routes, AnAtlasIsMadeOnceForEachSetOfUnknownsAndAStoppedOneAgain) {
+  TongueState& tongue = *all.half(Prior{});
+  const auto made = [&](const Prior& prior, const StopAtlas& stop = {}) {
+    const Stopwatch watch;
+    const size_t entries =
+        tongue.atlas.get(*tongue.model, prior, true, tongue.workspace, stop).entries.size();
+    return std::pair(entries, watch.seconds());
+  };
+  Prior fixed;
+  fixed.fixed["GGP"] = 1;
+  int asked = 0;
+  const auto stopped = made(Prior{}, [&] { return ++asked > 3; });
+  EXPECT_LT(stopped.first, 6u);
+  const auto first = made(Prior{}), other = made(fixed), again = made(Prior{});
+  EXPECT_GT(first.first, stopped.first);
+  EXPECT_LT(other.first, first.first);
+  EXPECT_EQ(again.first, first.first);
+  EXPECT_LT(again.second, 0.1 * first.second);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <thread>
 
-#include "forward/model/build_model.hpp"
 #include "server/client.hpp"
 #include "server/hub/hub.hpp"
+#include "server/served_model.hpp"
 #include "server/service.hpp"
 #include "tests/forward/small_model.hpp"
 #include "tests/runs/temporary_folder.hpp"
@@ -27,7 +27,7 @@ class ObservedService : public testing::Test {
     options.observer = &observer;
   }
   void start() {
-    thread = std::thread([this] { serve(model, options, stop); });
+    thread = std::thread([this] { serve(nursery, identities(models), options, stop); });
   }
   void end() {
     stop = true;
@@ -44,7 +44,9 @@ class ObservedService : public testing::Test {
     return test::content_of(path);
   }
 
-  const Model model = read_model(test::generic_model());
+  std::vector<ServedModel> models = read_served_models({test::generic_model()});
+  const Model& model = *models.front().model;
+  const Nursery nursery{worker_of(models, 2000)};
   const test::TemporaryFolder folder;
   const std::string path = folder.path() + "/log";
   const Descriptor file{open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600)};

@@ -16,14 +16,21 @@ std::string text_of(const LogEvent& event) {
 TEST(ServiceEvents, AnAnswerSaysWhoseItIsAndWhatCameOfIt) {
   command_reply_t r{};
   r.id = "i", r.status = "converged", r.verdict = "explained", r.rms_mm = 0.25, r.wall_s = 1.5;
-  EXPECT_EQ(text_of(answered_event("c", r)),
+  EXPECT_EQ(text_of(reply_event("c", r)),
             "info answered id=i client=c status=converged verdict=explained rms_mm=0.25 "
-            "seconds=1.5\n");
+            "seconds=1.5 waited_s=0\n");
   r = {};
   r.id = "i", r.status = "failed", r.message = "why not", r.tries = 2, r.waited_s = 3;
-  EXPECT_EQ(text_of(answered_event("c", r)),
+  EXPECT_EQ(text_of(reply_event("c", r)),
             "warning answered id=i client=c status=failed seconds=0 waited_s=3 tries=2 "
             "reason=\"why not\"\n");
+}
+
+TEST(ServiceEvents, ARefusalSaysWhomAndWhy) {
+  command_reply_t r{};
+  r.id = "i", r.status = "refused", r.message = "the queue is full";
+  EXPECT_EQ(text_of(reply_event("c", r)),
+            "info refused id=i client=c reason=\"the queue is full\"\n");
 }
 
 TEST(ServiceEvents, WhatBecameOfThoseThatWereThereAddsUp) {

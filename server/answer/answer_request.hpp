@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "forward/model/model.hpp"
+#include "server/answer/stream_state.hpp"
 #include "server/wire/wire.hpp"
 
 namespace genio {
@@ -28,10 +29,16 @@ struct RequestHooks {
   std::function<bool()> cancelled;
 };
 
-/// Builds the target and infers. Never throws: what is wrong with the points becomes a reply with
-/// status `failed`; see fault_of() for the other fields. `deadline_s`: from now on; 0: none.
-command_reply_t answer_request(const Model& model, const shape_request_t& request,
-                               double deadline_s, RequestWorker& worker,
-                               const RequestHooks& hooks = {});
+struct RequestAnswer {
+  command_reply_t reply;
+  StreamState state;  ///< for the next frame of its stream
+};
+
+/// Builds the target and infers, from where the stream's last frame ended if that is known. What is
+/// wrong with the points becomes a reply with status `failed`; see fault_of() for the other fields.
+/// `deadline_s`: from now on; 0: none. Throws std::bad_alloc alone.
+RequestAnswer answer_request(const Model& model, const shape_request_t& request, double deadline_s,
+                             RequestWorker& worker, const RequestHooks& hooks = {},
+                             const StreamState& start = {});
 
 }  // namespace genio

@@ -1,10 +1,12 @@
-#include "server/answer_request.hpp"
+#include "server/answer/answer_request.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 
 #include "forward/base/elapsed.hpp"
+#include "inverse/prior/base/unknowns.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/search/multi_start.hpp"
 #include "inverse/target/tongue_line.hpp"
@@ -14,9 +16,12 @@ namespace genio {
 
 struct RequestWorker::State {
   explicit State(const Model& m) : workspace(m), line(m) {
-    TongueState* half = workspace.half(Prior{});
-    TongueState& tongue = half ? *half : workspace.whole();
-    tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace);
+    const auto make_atlas_of = [](TongueState& tongue, bool bilateral) {
+      tongue.atlas.get(*tongue.model, Prior{}, bilateral, tongue.workspace);
+    };
+    if (TongueState* half = workspace.half(Prior{})) make_atlas_of(*half, true);
+    else make_atlas_of(workspace.whole(), true);
+    make_atlas_of(workspace.whole(), false);
   }
   InferWorkspace workspace;
   const TongueLine line;
@@ -100,22 +105,25 @@ void fill(const TongueLine& line, const Answer& a, command_reply_t& reply) {
 
 }  // namespace
 
-command_reply_t answer_request(const Model& model, const shape_request_t& request,
-                               double deadline_s, RequestWorker& worker,
-                               const RequestHooks& hooks) {
-  command_reply_t reply = reply_without_answer(request.id, "failed", "");
+RequestAnswer answer_request(const Model& model, const shape_request_t& request, double deadline_s,
+                             RequestWorker& worker, const RequestHooks& hooks,
+                             const StreamState& start) {
+  RequestAnswer answer{reply_without_answer(request.id, "failed", ""), {}};
+  command_reply_t& reply = answer.reply;
   const Stopwatch watch;
   const TongueLine& line = worker.state().line;
   try {
-    if (!request.model.empty() && request.model != model.name)
-      throw InputError(
-          fmt::format("model: '{}' is asked for; this server has '{}'", request.model, model.name));
     const double noise =
         request.default_sigma_mm > 0 ? 1e-3 * request.default_sigma_mm : point_noise;
     const Target target = make_target(model, frame_of(request), noise);
+    const Prior prior;
     InferOptions options;
     options.deadline_s = deadline_s;
     if (request.bilateral >= 0) options.bilateral = request.bilateral == 1;
+    const bool bilateral = options.bilateral.value_or(target.midsagittal());
+    if (start.unknowns.size() == Eigen::Index(unknowns_of(model, prior, bilateral).size()) &&
+        start.prior == request.prior)
+      options.start = start.unknowns, options.start_shape = start.shape;
     options.progress = hooks.progress, options.cancelled = hooks.cancelled;
     if (hooks.improved)
       options.improved = [&](const Answer& so_far) {
@@ -124,7 +132,7 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
         fill(line, so_far, best);
         hooks.improved(std::move(best));
       };
-    const Answer a = infer_from_starts(model, target, Prior{}, worker.state().workspace, options,
+    const Answer a = infer_from_starts(model, target, prior, worker.state().workspace, options,
                                        {request.starts});
     reply.status = to_string(a.status);
     reply.message = a.message;
@@ -133,10 +141,13 @@ command_reply_t answer_request(const Model& model, const shape_request_t& reques
     reply.factorizations = a.factorizations;
     reply.wall_s = a.wall_s;
     fill(line, a, reply);
+    if (a.status == InferStatus::converged) answer.state = {request.prior, a.activations, a.shape};
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     reply.message = e.what();
   }
-  return reply;
+  return answer;
 }
 
 }  // namespace genio
