@@ -31,7 +31,14 @@ Dispatcher::Dispatcher(const DispatchLimits& limits, std::vector<ModelIdentity> 
 void Dispatcher::refuse(const std::string& client, const std::string& id, const std::string& reason,
                         double retry_after_s) {
   ++tally_.refused, ++tally_.replied;
-  outbox_.reply(client, encode(reply_without_answer(id, "refused", reason, retry_after_s)));
+  command_reply_t reply = reply_without_answer(id, "refused", reason, retry_after_s);
+  outbox_.reply(client, encode(reply));
+  outbox_.note(client, std::move(reply));
+}
+
+void Dispatcher::drop_unreadable(const char* channel, size_t size, const std::string& reason) {
+  ++tally_.unreadable;
+  outbox_.note_drop(channel, size, reason);
 }
 
 double Dispatcher::seconds_until_free() const {
@@ -177,7 +184,7 @@ void Dispatcher::drop(const std::string& id, const std::string& reason) {
 void Dispatcher::receive_ack(const void* data, size_t size) {
   std::string why;
   const auto ack = decode_checked<ack_t>(data, size, why);
-  if (!ack) return void(++tally_.unreadable);
+  if (!ack) return drop_unreadable("GENIO_ACK", size, why);
   const auto it = entries_.find(ack->id);
   if (it != entries_.end() && !it->second.asked_by(ack->client)) return;
   outbox_.keep(DeliveredRecord{ack->id});
@@ -198,12 +205,14 @@ void Dispatcher::answer(Entry& entry, command_reply_t reply, int64_t now) {
   entry.request = {}, entry.request.id = reply.id, entry.best.reset();
   entry.bytes = entry.reply.size(), entry.state = State::answered;
   for (const std::string& old : remembered_.add(reply.id, entry.bytes)) forget(old);
+  outbox_.note(entry.clients.front(), std::move(reply));
 }
 
 void Dispatcher::receive_cancel(const void* data, size_t size, int64_t now) {
   std::string why;
   const auto cancel = decode_checked<cancel_t>(data, size, why);
-  if (!cancel || !usable_client(cancel->client)) return void(++tally_.unreadable);
+  if (cancel && !usable_client(cancel->client)) why = "the client's name cannot be used";
+  if (!why.empty()) return drop_unreadable("GENIO_CANCEL", size, why);
   const auto it = entries_.find(cancel->id);
   if (it == entries_.end() || it->second.state == State::answered)
     return refuse(cancel->client, cancel->id.substr(0, longest_id),

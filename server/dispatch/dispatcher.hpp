@@ -86,6 +86,9 @@ class Dispatcher {
 
   /// Each record and message is given once.
   Outgoing take_outgoing() { return outbox_.take(); }
+  /// Likewise each reply that was not sent before, and each message that was dropped.
+  std::vector<ReplyNote> take_notes() { return outbox_.take_notes(); }
+  std::vector<DropNote> take_drops() { return outbox_.take_drops(); }
   /// Puts the counts into a status.
   void tell(server_status_t& status) const;
 
@@ -95,6 +98,7 @@ class Dispatcher {
 
   void refuse(const std::string& client, const std::string& id, const std::string& reason,
               double retry_after_s = 0);
+  void drop_unreadable(const char* channel, size_t size, const std::string& reason);
   void accept(shape_request_t request, std::vector<uint8_t> bytes, int64_t now);
   Entry& enqueue(shape_request_t request, const AcceptedRecord& record);
   void wait_in_line(Entry& entry);
