@@ -78,7 +78,8 @@ std::optional<command_reply_t> Client::request(
     link_.wait(20);
   }
   progress_ = {};
-  if (reply_) {
+  // A refusal is none of the replies that are kept; the id may be another client's.
+  if (reply_ && reply_->status != "refused") {
     ack_t ack{};
     ack.utime = now_us(), ack.id = reply_->id, ack.client = name_;
     link_.publish("GENIO_ACK", encode(ack));

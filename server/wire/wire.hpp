@@ -29,12 +29,12 @@ template <class T>
 struct WireLayout;
 template <>
 struct WireLayout<shape_request_t> {
-  static constexpr const char* fields = "lsssssdissddddnDDnDDDDSddbi";
+  static constexpr const char* fields = "lsssssdissddddddnDDnDDDDSddbi";
 };
 template <>
 struct WireLayout<command_reply_t> {
   static constexpr const char* fields =
-      "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD";
+      "lssssssdssdsnSDDDDDDDDDdinSSDDDDnISDnSnSDDDdddiiddisddddddnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {
