@@ -20,10 +20,10 @@ void append_all(std::vector<T>& to, std::vector<T>&& from) {
 
 }  // namespace
 
-Keeper::Keeper(const std::string& path, std::function<void(const std::string&)> log)
+Keeper::Keeper(const std::string& path, std::function<void(const std::string&)> failed)
     : journal_(std::make_unique<Journal>(path)),
       view_(std::make_unique<JournalView>(path)),
-      log_(std::move(log)),
+      failed_(std::move(failed)),
       done_signal_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       thread_([this] { work(); }) {}
 
@@ -77,7 +77,7 @@ void Keeper::work() {
     try {
       more = journal_->prune(now_us()).more;
     } catch (const JournalError& e) {
-      if (log_) log_(std::string("journal: ") + e.what());
+      if (failed_) failed_(e.what());
     }
     next_prune = std::chrono::steady_clock::now() + (more ? prune_again : prune_period);
     lock.lock();

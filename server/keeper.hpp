@@ -22,9 +22,9 @@ struct KeptBatch {
 /// replies that wait for it, and nothing else.
 class Keeper {
  public:
-  /// Throws InputError where the file cannot be the journal, see Journal. `log` is called from the
-  /// thread.
-  Keeper(const std::string& path, std::function<void(const std::string&)> log);
+  /// Throws InputError where the file cannot be the journal, see Journal. `failed` is
+  /// called from the thread, with the reason, where the file cannot be pruned.
+  Keeper(const std::string& path, std::function<void(const std::string&)> failed);
   /// Writes what was handed over.
   ~Keeper();
   Keeper(const Keeper&) = delete;
@@ -50,7 +50,7 @@ class Keeper {
 
   std::unique_ptr<Journal> journal_;
   std::unique_ptr<JournalView> view_;
-  const std::function<void(const std::string&)> log_;
+  const std::function<void(const std::string&)> failed_;
   int done_signal_;
   std::mutex mutex_;
   std::condition_variable changed_;

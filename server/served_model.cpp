@@ -61,9 +61,14 @@ std::vector<ModelIdentity> identities(const std::vector<ServedModel>& models) {
 std::function<void(int)> worker_of(std::vector<ServedModel>& models, double memory_mb) {
   return [&models, memory_mb](int socket) {
     limit_memory(memory_mb);
-    run_worker(socket, [&](const Assignment& assignment, WorkerPipe& pipe) {
-      answer_assignment(models, assignment, pipe);
-    });
+    run_worker(
+        socket,
+        [&](const Assignment& assignment, WorkerPipe& pipe) {
+          answer_assignment(models, assignment, pipe);
+        },
+        [&](const WorkerPipe& pipe) {
+          for (ServedModel& m : models) m.worker->prepare([&] { return pipe.called(); });
+        });
   };
 }
 

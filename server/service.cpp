@@ -1,6 +1,5 @@
 #include "server/service.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,10 +7,11 @@
 #include <deque>
 #include <fstream>
 #include <memory>
+#include <utility>
 
 #include "forward/base/elapsed.hpp"
 #include "server/keeper.hpp"
-#include "server/link.hpp"
+#include "server/link/link.hpp"
 
 namespace genio {
 namespace {
@@ -62,20 +62,24 @@ JournalLookup lookup_in(const Keeper* keeper) {
   return {[keeper](const std::string& id) { return keeper->find(id); }};
 }
 
+std::unique_ptr<Keeper> keeper_of(const std::string& path, Observer& observer) {
+  return std::make_unique<Keeper>(path, [&observer](const std::string& reason) {
+    observer.write(journal_failed_event(reason));
+  });
+}
+
 /// All that belongs to the thread of the messages.
 class ServiceLoop {
  public:
   ServiceLoop(const Nursery& nursery, const std::vector<ModelIdentity>& models,
-              const ServiceOptions& options)
+              const ServiceOptions& options, Observer& observer)
       : options_(options),
-        keeper_(options.journal.empty() ? nullptr
-                                        : std::make_unique<Keeper>(options.journal, options.log)),
+        observer_(observer),
+        keeper_(options.journal.empty() ? nullptr : keeper_of(options.journal, observer)),
         dispatcher_(options.limits, models, lookup_in(keeper_.get())),
         pool_(nursery, options.workers),
         link_(options.url) {
-    if (keeper_)
-      for (const JournalEntry& entry : keeper_->unanswered())
-        dispatcher_.resume(accepted_record(entry), entry.tries, now_us());
+    if (keeper_) resume();
     subscribe();
     waited_for_ = {pool_.descriptor()};
     if (keeper_) waited_for_.push_back(keeper_->descriptor());
@@ -92,15 +96,15 @@ class ServiceLoop {
       pool_.start(*next, uptime_.seconds());
     }
     collect();
-    if (status_asked_ || uptime_.seconds() >= next_status_) {
-      status_asked_ = false, next_status_ = uptime_.seconds() + status_period;
-      departures_.add({"GENIO_STATUS", encode(status())});
-    }
+    if (status_asked_ || uptime_.seconds() >= next_status_) tell_status();
+    observer_.turn();
     if (up) departures_.publish(link_);
     else departures_.keep_replies();
   }
 
   void end() {
+    observer_.stopping();
+    const server_status_t told = status();
     dispatcher_.close();
     const Stopwatch ending;
     while (!keeper_ && dispatcher_.running() > 0 && ending.seconds() < longest_end) turn();
@@ -108,9 +112,18 @@ class ServiceLoop {
     collect();
     if (keeper_) keeper_->finish(), collect();
     departures_.publish(link_);
+    const server_status_t last = status();
+    observer_.stopped(last, drain_counts(told, last, bool(keeper_)));
   }
 
  private:
+  void resume() {
+    const auto unanswered = keeper_->unanswered();
+    if (!unanswered.empty()) observer_.write(resumed_event(int64_t(unanswered.size())));
+    for (const JournalEntry& entry : unanswered)
+      dispatcher_.resume(accepted_record(entry), entry.tries, now_us());
+  }
+
   void subscribe() {
     link_.subscribe("GENIO_REQUEST", [this](const std::string&, const void* data, size_t size) {
       dispatcher_.receive_request(data, size, now_us());
@@ -121,8 +134,9 @@ class ServiceLoop {
     link_.subscribe("GENIO_ACK", [this](const std::string&, const void* data, size_t size) {
       dispatcher_.receive_ack(data, size);
     });
-    link_.subscribe("GENIO_ASK_STATUS",
-                    [this](const std::string&, const void*, size_t) { status_asked_ = true; });
+    link_.subscribe("GENIO_ASK_STATUS", [this](const std::string&, const void*, size_t) {
+      status_asked_ = heard_ = true;
+    });
   }
 
   /// Until something is due.
@@ -143,18 +157,21 @@ class ServiceLoop {
           dispatcher_.keep_best(event.id, std::move(event.reply));
           break;
         case Kind::answer:
-          log(fmt::format("{}: {} {} rms {:.3f} mm in {:.2f} s", event.id, event.reply.status,
-                          event.reply.verdict, event.reply.rms_mm, event.reply.wall_s));
+          if (options_.computed) options_.computed(event.id);
           dispatcher_.finish(event.id, std::move(event.reply), std::move(event.state), now_us());
           break;
         case Kind::lost:
-          log(fmt::format("{}: its worker ended: {}", event.id, event.reason));
+          observer_.write(worker_replaced_event(event.id, event.reason));
           dispatcher_.lost(event.id, event.reason, now_us());
           break;
       }
   }
 
   void collect() {
+    for (const ReplyNote& n : dispatcher_.take_notes())
+      observer_.write(reply_event(n.client, n.reply));
+    for (const DropNote& n : dispatcher_.take_drops())
+      observer_.write(dropped_event(n.channel, n.bytes, n.reason));
     Outgoing outgoing = dispatcher_.take_outgoing();
     if (!keeper_) {
       for (OutgoingMessage& m : outgoing.messages) departures_.add(std::move(m));
@@ -164,6 +181,19 @@ class ServiceLoop {
     KeptBatch kept = keeper_->collect();
     for (OutgoingMessage& m : kept.messages) departures_.add(std::move(m));
     for (const Unkept& u : kept.unkept) dispatcher_.drop(u.id, u.reason);
+  }
+
+  void tell_status() {
+    const server_status_t s = status();
+    departures_.add({"GENIO_STATUS", encode(s)});
+    // Whoever hears himself is heard by others.
+    if (!heard_) departures_.add({"GENIO_ASK_STATUS", {0}});
+    if (heard_ && s.workers > 0 && !std::exchange(serving_, true)) observer_.serving(s);
+    if (uptime_.seconds() >= next_status_) {
+      next_status_ = uptime_.seconds() + status_period;
+      observer_.status(s);
+    }
+    status_asked_ = false;
   }
 
   server_status_t status() const {
@@ -179,11 +209,8 @@ class ServiceLoop {
     return s;
   }
 
-  void log(const std::string& line) const {
-    if (options_.log) options_.log(line);
-  }
-
   const ServiceOptions& options_;
+  Observer& observer_;
   const Stopwatch uptime_;
   std::unique_ptr<Keeper> keeper_;
   Dispatcher dispatcher_;
@@ -192,14 +219,15 @@ class ServiceLoop {
   std::vector<int> waited_for_;
   Departures departures_;
   double next_status_ = 0;
-  bool status_asked_ = false;
+  bool status_asked_ = false, heard_ = false, serving_ = false;
 };
 
 }  // namespace
 
 void serve(const Nursery& nursery, const std::vector<ModelIdentity>& models,
            const ServiceOptions& options, const std::atomic<bool>& stop) {
-  ServiceLoop loop(nursery, models, options);
+  Observer nobody;
+  ServiceLoop loop(nursery, models, options, options.observer ? *options.observer : nobody);
   while (!stop) loop.turn();
   loop.end();
 }

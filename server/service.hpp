@@ -7,6 +7,7 @@
 
 #include "server/dispatch/dispatcher.hpp"
 #include "server/hub/counts.hpp"
+#include "server/observe/observer.hpp"
 #include "server/workers/pool.hpp"
 
 namespace genio {
@@ -17,7 +18,9 @@ struct ServiceOptions {
   WorkerLimits workers;
   /// File that keeps requests and replies, see docs/journal.md; empty: they end with the process.
   std::string journal;
-  std::function<void(const std::string& line)> log;
+  Observer* observer = nullptr;  ///< is told what happens; outlives the call
+  /// Told of each computation that ended with a reply.
+  std::function<void(const std::string& id)> computed;
   std::function<HubCounts()> hub;  ///< counts of the server's own hub, if it has one
 };
 

@@ -28,6 +28,11 @@ struct RequestWorker::State {
 RequestWorker::RequestWorker(const Model& model) : state_(std::make_unique<State>(model)) {}
 RequestWorker::~RequestWorker() = default;
 
+void RequestWorker::prepare(const std::function<bool()>& stop) {
+  TongueState& tongue = state_->workspace.whole();
+  tongue.atlas.get(*tongue.model, Prior{}, false, tongue.workspace, stop);
+}
+
 namespace {
 
 LaidPoints laid_by(RequestWorker::State& state, const Model& model,

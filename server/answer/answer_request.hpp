@@ -10,11 +10,14 @@
 
 namespace genio {
 
-/// Scratch of one worker, with the atlas made: no request should wait for it.
+/// Scratch of one worker, with the atlas of midsagittal shapes made: no request should wait for it.
 class RequestWorker {
  public:
   explicit RequestWorker(const Model& model);
   ~RequestWorker();
+  /// Makes the atlas of other shapes, while there is nothing else to do: until `stop` says so. Goes
+  /// on where it stopped.
+  void prepare(const std::function<bool()>& stop);
   struct State;
   State& state() { return *state_; }
 

@@ -25,12 +25,20 @@ Dispatcher::Dispatcher(const DispatchLimits& limits, std::vector<ModelIdentity> 
       models_(std::move(models)),
       journal_(std::move(journal)),
       outbox_(bool(journal_)),
-      states_(limits.streams, limits.streams_bytes) {}
+      states_(limits.streams, limits.streams_bytes),
+      remembered_(limits.remembered, limits.remembered_bytes) {}
 
 void Dispatcher::refuse(const std::string& client, const std::string& id, const std::string& reason,
                         double retry_after_s) {
   ++tally_.refused, ++tally_.replied;
-  outbox_.reply(client, encode(reply_without_answer(id, "refused", reason, retry_after_s)));
+  command_reply_t reply = reply_without_answer(id, "refused", reason, retry_after_s);
+  outbox_.reply(client, encode(reply));
+  outbox_.note(client, std::move(reply));
+}
+
+void Dispatcher::drop_unreadable(const char* channel, size_t size, const std::string& reason) {
+  ++tally_.unreadable;
+  outbox_.note_drop(channel, size, reason);
 }
 
 double Dispatcher::seconds_until_free() const {
@@ -42,12 +50,6 @@ std::optional<size_t> Dispatcher::model_named(const std::string& name) const {
   for (size_t k = 0; k < models_.size(); ++k)
     if (name.empty() || models_[k].name == name) return k;
   return std::nullopt;
-}
-
-std::string Dispatcher::stream_of(const Entry& entry) const {
-  const shape_request_t& r = entry.request;
-  if (r.stream.empty()) return "";
-  return entry.clients.front() + '\n' + r.stream + '\n' + models_[entry.model].name;
 }
 
 void Dispatcher::receive_request(const void* data, size_t size, int64_t now) {
@@ -83,8 +85,7 @@ void Dispatcher::ask_again(const shape_request_t& request, Entry& entry) {
     ++tally_.replied;
     return outbox_.reply(client, entry.reply);
   }
-  if (std::find(entry.clients.begin(), entry.clients.end(), client) == entry.clients.end())
-    entry.clients.push_back(client);
+  if (!entry.asked_by(client)) entry.clients.push_back(client);
 }
 
 bool Dispatcher::answered_before(const shape_request_t& request) {
@@ -141,8 +142,8 @@ Dispatcher::Entry& Dispatcher::enqueue(shape_request_t request, const AcceptedRe
 
 void Dispatcher::wait_in_line(Entry& entry) {
   entry.state = State::waiting;
-  line_.add(
-      {entry.request.id, entry.request.priority, stream_of(entry), entry.bytes, entry.number});
+  line_.add({entry.request.id, entry.request.priority, stream_of(entry, models_[entry.model]),
+             entry.bytes, entry.number});
 }
 
 void Dispatcher::resume(const AcceptedRecord& record, int tries, int64_t now) {
@@ -183,25 +184,14 @@ void Dispatcher::drop(const std::string& id, const std::string& reason) {
 void Dispatcher::receive_ack(const void* data, size_t size) {
   std::string why;
   const auto ack = decode_checked<ack_t>(data, size, why);
-  if (!ack) return void(++tally_.unreadable);
-  if (const auto it = entries_.find(ack->id); it != entries_.end()) {
-    const auto& clients = it->second.clients;
-    if (std::find(clients.begin(), clients.end(), ack->client) == clients.end()) return;
-  }
+  if (!ack) return drop_unreadable("GENIO_ACK", size, why);
+  const auto it = entries_.find(ack->id);
+  if (it != entries_.end() && !it->second.asked_by(ack->client)) return;
   outbox_.keep(DeliveredRecord{ack->id});
 }
 
-void Dispatcher::stamp(const Entry& entry, command_reply_t& reply, int64_t now) const {
-  const shape_request_t& r = entry.request;
-  reply.id = r.id, reply.utime = now;
-  reply.model = models_[entry.model].name, reply.model_hash = models_[entry.model].hash;
-  reply.stream = r.stream, reply.label = r.label, reply.time_s = r.time_s;
-  reply.waited_s = 1e-6 * double((entry.started > 0 ? entry.started : now) - entry.accepted);
-  reply.tries = entry.tries + (entry.started > 0);
-}
-
 void Dispatcher::answer(Entry& entry, command_reply_t reply, int64_t now) {
-  stamp(entry, reply, now);
+  stamp(entry, models_[entry.model], now, reply);
   entry.reply = encode(reply);
   // Of who asked in an earlier process one is known; the others ask again.
   for (const auto& client : entry.clients) outbox_.reply(client, entry.reply);
@@ -214,24 +204,23 @@ void Dispatcher::answer(Entry& entry, command_reply_t reply, int64_t now) {
   // Repeated questions need the digest and the reply alone.
   entry.request = {}, entry.request.id = reply.id, entry.best.reset();
   entry.bytes = entry.reply.size(), entry.state = State::answered;
-  answered_.push_back(reply.id), answered_bytes_ += entry.bytes;
-  forget_oldest();
-}
-
-void Dispatcher::forget_oldest() {
-  while (int(answered_.size()) > limits_.remembered ||
-         (answered_.size() > 1 && answered_bytes_ > limits_.remembered_bytes)) {
-    answered_bytes_ -= entries_.at(answered_.front()).bytes;
-    forget(answered_.front()), answered_.pop_front();
-  }
+  for (const std::string& old : remembered_.add(reply.id, entry.bytes)) forget(old);
+  outbox_.note(entry.clients.front(), std::move(reply));
 }
 
 void Dispatcher::receive_cancel(const void* data, size_t size, int64_t now) {
   std::string why;
   const auto cancel = decode_checked<cancel_t>(data, size, why);
-  if (!cancel || !usable_client(cancel->client)) return void(++tally_.unreadable);
+  if (cancel && !usable_client(cancel->client)) why = "the client's name cannot be used";
+  if (!why.empty()) return drop_unreadable("GENIO_CANCEL", size, why);
   const auto it = entries_.find(cancel->id);
-  if (it == entries_.end() || it->second.state == State::answered)
+  const bool answered = it != entries_.end() && it->second.state == State::answered;
+  if (answered && it->second.cancelled && cancel->client == it->second.clients.front()) {
+    // It may have missed the reply to its first try.
+    ++tally_.replied;
+    return outbox_.reply(cancel->client, it->second.reply);
+  }
+  if (it == entries_.end() || answered)
     return refuse(cancel->client, cancel->id.substr(0, longest_id),
                   "no request of that id waits or runs");
   Entry& entry = it->second;

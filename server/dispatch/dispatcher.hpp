@@ -1,7 +1,6 @@
 #pragma once
 // What waits, runs and was answered, without any transport, worker or clock.
 
-#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -9,18 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "server/dispatch/entry.hpp"
 #include "server/dispatch/limits.hpp"
 #include "server/dispatch/outbox.hpp"
+#include "server/dispatch/remembered.hpp"
 #include "server/dispatch/stream_states.hpp"
 #include "server/dispatch/tally.hpp"
 #include "server/dispatch/waiting_line.hpp"
 
 namespace genio {
-
-/// A model that requests may name.
-struct ModelIdentity {
-  std::string name, hash;  ///< hash: 16 hexadecimal digits of its files
-};
 
 /// A request that is to be computed.
 struct Assignment {
@@ -90,27 +86,19 @@ class Dispatcher {
 
   /// Each record and message is given once.
   Outgoing take_outgoing() { return outbox_.take(); }
+  /// Likewise each reply that was not sent before, and each message that was dropped.
+  std::vector<ReplyNote> take_notes() { return outbox_.take_notes(); }
+  std::vector<DropNote> take_drops() { return outbox_.take_drops(); }
   /// Puts the counts into a status.
   void tell(server_status_t& status) const;
 
  private:
-  enum class State { waiting, running, answered };
-  struct Entry {
-    shape_request_t request;
-    std::string digest;
-    std::vector<std::string> clients;  ///< that asked; the first may withdraw it
-    size_t model = 0, bytes = 0;
-    int64_t number = -1;                              ///< its place in the line
-    int64_t accepted = 0, deadline = 0, started = 0;  ///< 0: none
-    int tries = 0;                                    ///< that took a worker with them
-    bool resumed = false, cancelled = false;
-    State state = State::waiting;
-    std::optional<command_reply_t> best;  ///< so far
-    std::vector<uint8_t> reply;
-  };
+  using Entry = RequestEntry;
+  using State = RequestEntry::State;
 
   void refuse(const std::string& client, const std::string& id, const std::string& reason,
               double retry_after_s = 0);
+  void drop_unreadable(const char* channel, size_t size, const std::string& reason);
   void accept(shape_request_t request, std::vector<uint8_t> bytes, int64_t now);
   Entry& enqueue(shape_request_t request, const AcceptedRecord& record);
   void wait_in_line(Entry& entry);
@@ -120,10 +108,7 @@ class Dispatcher {
   /// Empty where the request may wait.
   std::string why_full(size_t bytes) const;
   void answer(Entry& entry, command_reply_t reply, int64_t now);
-  void stamp(const Entry& entry, command_reply_t& reply, int64_t now) const;
-  void forget_oldest();
   void forget(const std::string& id);
-  std::string stream_of(const Entry& entry) const;
   std::optional<size_t> model_named(const std::string& name) const;
   double seconds_until_free() const;
 
@@ -139,8 +124,7 @@ class Dispatcher {
   std::set<std::string> busy_;                           // streams of which one runs
   std::set<std::pair<int64_t, std::string>> deadlines_;  // of what is not answered
   std::vector<std::string> unwanted_;                    // running ids
-  std::deque<std::string> answered_;                     // ids, oldest first
-  size_t answered_bytes_ = 0;
+  RememberedIds remembered_;
   double usual_seconds_ = 1;  // of a request
   size_t at_once_ = 1;        // requests that ran together so far
   bool closed_ = false;

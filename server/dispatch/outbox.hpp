@@ -1,11 +1,25 @@
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/dispatch/record.hpp"
 #include "server/dispatch/replies.hpp"
 
 namespace genio {
+
+/// A reply, for those who watch the service. `client` asked first.
+struct ReplyNote {
+  std::string client;
+  command_reply_t reply;
+};
+
+/// A message that nobody could be told about.
+struct DropNote {
+  const char* channel;
+  size_t bytes;
+  std::string reason;
+};
 
 /// What happened since it was last taken: records to be kept before the messages are published.
 struct Outgoing {
@@ -34,9 +48,20 @@ class Outbox {
   }
   Outgoing take() { return std::exchange(outgoing_, Outgoing{}); }
 
+  void note(const std::string& client, command_reply_t reply) {
+    notes_.push_back({client, std::move(reply)});
+  }
+  void note_drop(const char* channel, size_t bytes, std::string reason) {
+    drops_.push_back({channel, bytes, std::move(reason)});
+  }
+  std::vector<ReplyNote> take_notes() { return std::exchange(notes_, {}); }
+  std::vector<DropNote> take_drops() { return std::exchange(drops_, {}); }
+
  private:
   bool kept_;
   Outgoing outgoing_;
+  std::vector<ReplyNote> notes_;
+  std::vector<DropNote> drops_;
 };
 
 }  // namespace genio

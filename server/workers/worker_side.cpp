@@ -1,5 +1,6 @@
 #include "server/workers/worker_side.hpp"
 
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@ namespace genio {
 namespace {
 
 constexpr double sign_of_life_s = 0.2;
+constexpr int leisure_ms = 1000;
 
 double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -61,6 +63,11 @@ Assignment WorkerPipe::wait() {
   }
 }
 
+bool WorkerPipe::called(int within_ms) const {
+  pollfd polled{socket_, POLLIN, 0};
+  return poll(&polled, 1, within_ms) != 0;
+}
+
 bool WorkerPipe::withdrawn() {
   receive(MSG_DONTWAIT);
   while (const auto message = assembler_.next())
@@ -90,15 +97,16 @@ void limit_memory(double mb) {
   setrlimit(RLIMIT_AS, &limit);
 }
 
-void run_worker(int socket, const std::function<void(const Assignment&, WorkerPipe&)>& answer) {
+void run_worker(int socket, const std::function<void(const Assignment&, WorkerPipe&)>& answer,
+                const std::function<void(const WorkerPipe&)>& idle) {
   WorkerPipe pipe(socket);
-  for (;;) {
-    const Assignment assignment = pipe.wait();
-    try {
-      answer(assignment, pipe);
-    } catch (const std::bad_alloc&) {
-      no_memory();
+  try {
+    for (;;) {
+      if (idle && !pipe.called(leisure_ms)) idle(pipe);
+      answer(pipe.wait(), pipe);
     }
+  } catch (const std::bad_alloc&) {
+    no_memory();
   }
 }
 

@@ -15,6 +15,8 @@ class WorkerPipe {
 
   /// Waits for the next request.
   Assignment wait();
+  /// True where something has come, or comes within this time.
+  bool called(int within_ms = 0) const;
   /// True once the request at hand was withdrawn. Looks without waiting, and now and then tells
   /// the service that the worker is alive.
   bool withdrawn();
@@ -39,7 +41,9 @@ inline constexpr int exit_without_memory = 77;
 /// exit_without_memory.
 void limit_memory(double mb);
 
-/// Answers what comes, with `answer`, until the service is gone.
-void run_worker(int socket, const std::function<void(const Assignment&, WorkerPipe&)>& answer);
+/// Answers what comes, with `answer`, until the service is gone. `idle` is called when
+/// nothing came for a second, and should return soon once the pipe is called().
+void run_worker(int socket, const std::function<void(const Assignment&, WorkerPipe&)>& answer,
+                const std::function<void(const WorkerPipe&)>& idle = {});
 
 }  // namespace genio
