@@ -11,7 +11,7 @@
 
 #include "forward/base/elapsed.hpp"
 #include "server/keeper.hpp"
-#include "server/link.hpp"
+#include "server/link/link.hpp"
 
 namespace genio {
 namespace {

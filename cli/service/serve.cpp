@@ -8,13 +8,13 @@
 
 #include "cli/support.hpp"
 #include "server/hub/hub.hpp"
-#include "server/link.hpp"
+#include "server/link/link.hpp"
+#include "server/link/tcp_address.hpp"
 #include "server/log/log.hpp"
 #include "server/metrics/metrics_endpoint.hpp"
 #include "server/observe/observer.hpp"
 #include "server/served_model.hpp"
 #include "server/service.hpp"
-#include "server/tcp_address.hpp"
 
 namespace genio::cli {
 namespace {

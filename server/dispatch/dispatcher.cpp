@@ -214,7 +214,13 @@ void Dispatcher::receive_cancel(const void* data, size_t size, int64_t now) {
   if (cancel && !usable_client(cancel->client)) why = "the client's name cannot be used";
   if (!why.empty()) return drop_unreadable("GENIO_CANCEL", size, why);
   const auto it = entries_.find(cancel->id);
-  if (it == entries_.end() || it->second.state == State::answered)
+  const bool answered = it != entries_.end() && it->second.state == State::answered;
+  if (answered && it->second.cancelled && cancel->client == it->second.clients.front()) {
+    // It may have missed the reply to its first try.
+    ++tally_.replied;
+    return outbox_.reply(cancel->client, it->second.reply);
+  }
+  if (it == entries_.end() || answered)
     return refuse(cancel->client, cancel->id.substr(0, longest_id),
                   "no request of that id waits or runs");
   Entry& entry = it->second;

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "server/hub/hub.hpp"
+#include "server/link/tcp_address.hpp"
 #include "server/service.hpp"
-#include "server/tcp_address.hpp"
 
 namespace genio::bench {
 namespace {

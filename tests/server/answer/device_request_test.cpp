@@ -11,6 +11,8 @@ namespace {
 
 using test::device_request;
 using test::expect_same;
+using test::force_in;
+using test::put_point;
 
 class DeviceRequest : public test::AskedTest {};
 
@@ -115,7 +117,8 @@ shape_request_t sensors(const Model& m, const std::vector<std::string>& places,
     const Vec3 at = 1e3 * place_at_rest(m, places[k]);
     put_point(r, {at[0] + 10, std::nan(""), at[2] + 5}, names[k], 0.5);
   }
-  for (const Eigen::Vector2d& q : midsagittal_cut(*m.palate).front())
+  const auto cut = midsagittal_cut(*m.palate);
+  for (const Eigen::Vector2d& q : cut.front())
     r.palate_x_mm.push_back(1e3 * q[0] + 10), r.palate_z_mm.push_back(1e3 * q[1] + 5);
   r.palate_count = int(r.palate_x_mm.size());
   return r;

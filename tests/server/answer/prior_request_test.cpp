@@ -13,6 +13,9 @@
 namespace genio {
 namespace {
 
+using test::force_in;
+using test::put_point;
+
 class PriorRequest : public test::AskedTest {
  protected:
   /// The tongue at rest, nearly.

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <set>
+#include <thread>
 
 namespace genio {
 namespace {
@@ -77,6 +79,20 @@ TEST_F(Dispatch, ARepeatedIdIsAnsweredByTheReplyOfTheFirst) {
   EXPECT_EQ(counts().queued, 0);
 }
 
+// Over UDP a long reply goes in parts, and a repeated one fills what is missing.
+TEST_F(Dispatch, ARepeatedReplyIsTheSameToTheByte) {
+  ask("a"), next(), answer("a", 0.5);
+  const auto first = dispatcher.take_outgoing().messages.back();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ask("a");
+  const auto second = dispatcher.take_outgoing().messages.back();
+  EXPECT_EQ(first.channel, second.channel);
+  EXPECT_EQ(first.bytes, second.bytes);
+  std::string why;
+  EXPECT_GT(decode_checked<command_reply_t>(second.bytes.data(), second.bytes.size(), why)->utime,
+            0);
+}
+
 TEST_F(Dispatch, AllWhoAskTheSameGetTheReplyOnce) {
   ask("a", "one"), ask("a", "two"), ask("a", "one");
   EXPECT_EQ(counts().queued, 1);
@@ -124,6 +140,15 @@ TEST_F(Dispatch, WhatWaitsIsWithdrawnAtOnce) {
   // Asked again it was answered before.
   ask("b");
   EXPECT_EQ(replies().at(0).reply.status, "cancelled");
+}
+
+// Over UDP the reply to a withdrawal may be lost, and its client withdraws again.
+TEST_F(Dispatch, WithdrawingTwiceIsAnsweredAlike) {
+  ask("a"), cancel("a"), cancel("a"), cancel("a", "other");
+  const auto sent = replies();
+  ASSERT_EQ(sent.size(), 3u);
+  EXPECT_EQ(sent[1].reply.status, "cancelled");
+  EXPECT_EQ(sent[2].reply.status, "refused");
 }
 
 // Once anyone could cancel anyone's request.

@@ -1,4 +1,4 @@
-#include "server/tcp_address.hpp"
+#include "server/link/tcp_address.hpp"
 
 #include <arpa/inet.h>
 #include <netdb.h>

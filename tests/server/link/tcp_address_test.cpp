@@ -1,10 +1,10 @@
-#include "server/tcp_address.hpp"
+#include "server/link/tcp_address.hpp"
 
 #include <gtest/gtest.h>
 
 #include "forward/base/types.hpp"
 #include "server/hub/hub.hpp"
-#include "server/link.hpp"
+#include "server/link/link.hpp"
 
 namespace genio {
 namespace {

@@ -1,4 +1,4 @@
-#include "server/silenced.hpp"
+#include "server/link/silenced.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "server/link.hpp"
+#include "server/link/tcpq_link.hpp"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -11,13 +11,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <optional>
 
 #include "forward/base/types.hpp"
 #include "server/hub/protocol/tcpq.hpp"
-#include "server/silenced.hpp"
-#include "server/tcp_address.hpp"
+#include "server/link/silenced.hpp"
+#include "server/link/tcp_address.hpp"
 
 namespace genio {
 
@@ -73,16 +72,14 @@ bool is_closed(int fd) {
   return recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
 }
 
-[[noreturn]] void refuse_url(const std::string& url) {
-  throw InputError(fmt::format(
-      "--lcm {}: cannot be used; expected for example {} or udpm://239.255.76.67:7667?ttl=0 "
-      "(which needs a multicast route)",
-      url, default_url));
+[[noreturn]] void refuse_hub(const std::string& url) {
+  throw InputError(
+      fmt::format("--lcm {}: cannot be used; expected for example tcpq://127.0.0.1:7700", url));
 }
 
 }  // namespace
 
-struct Link::Subscription {
+struct TcpqLink::Subscription {
   std::string channel;
   Handler handler;
 
@@ -100,31 +97,24 @@ struct Link::Subscription {
   }
 };
 
-std::string choose_url(const std::string& option) {
-  if (!option.empty()) return option;
-  const char* url = std::getenv("LCM_DEFAULT_URL");
-  return url && *url ? url : default_url;
+TcpqLink::TcpqLink(const std::string& url) : url_(url) {
+  if (!tcp_address(url)) refuse_hub(url);
+  connect();
 }
 
-Link::Link(const std::string& url) : url_(url), tcp_(url.starts_with("tcpq")) {
-  if (tcp_ && !tcp_address(url)) refuse_url(url);
-  if (tcp_) connect();
-  else create(url_);
-}
+bool TcpqLink::connected() const { return lcm_ && lcm_get_fileno(lcm_) >= 0; }
 
-bool Link::connected() const { return lcm_ && (!tcp_ || lcm_get_fileno(lcm_) >= 0); }
-
-void Link::create(const std::string& url) {
+void TcpqLink::create(const std::string& url) {
   {
     const Silenced lcm;
     lcm_ = lcm_create(url.c_str());
   }
-  if (!lcm_) refuse_url(url_);
+  if (!lcm_) refuse_hub(url_);
   for (Subscription& s : subscriptions_) s.subscribe(lcm_);
   tune();
 }
 
-bool Link::connect() {
+bool TcpqLink::connect() {
   if (connected()) return true;
   // LCM takes every name that it cannot read for this host, so it gets the address.
   const TcpAddress address = tcp_address(url_).value();
@@ -143,35 +133,35 @@ bool Link::connect() {
   return connected();
 }
 
-Link::~Link() {
+TcpqLink::~TcpqLink() {
   if (lcm_) lcm_destroy(lcm_);
 }
 
-void Link::tune() {
+void TcpqLink::tune() {
   // LCM leaves Nagle's algorithm and delayed acknowledgements on: 88 ms a round trip.
   const int fd = lcm_get_fileno(lcm_);
-  if (!tcp_ || fd < 0) return;
+  if (fd < 0) return;
   const int one = 1;
   if (fd != tuned_fd_) setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
   setsockopt(fd, IPPROTO_TCP, TCP_QUICKACK, &one, sizeof one);
   tuned_fd_ = fd;
 }
 
-void Link::subscribe(const std::string& channel, Handler handler) {
+void TcpqLink::subscribe(const std::string& channel, Handler handler) {
   subscriptions_.push_back({channel, std::move(handler)});
   if (lcm_) subscriptions_.back().subscribe(lcm_);
 }
 
-bool Link::publish(const std::string& channel, const std::vector<uint8_t>& bytes) {
+bool TcpqLink::publish(const std::string& channel, const std::vector<uint8_t>& bytes) {
   if (!connect()) return false;
   std::optional<Silenced> lcm;
-  if (tcp_ && is_closed(lcm_get_fileno(lcm_))) lcm.emplace();
+  if (is_closed(lcm_get_fileno(lcm_))) lcm.emplace();
   const bool sent = lcm_publish(lcm_, channel.c_str(), bytes.data(), unsigned(bytes.size())) == 0;
   tune();
   return sent;
 }
 
-bool Link::wait(int timeout_ms, std::span<const int> others) {
+bool TcpqLink::wait(int timeout_ms, std::span<const int> others) {
   std::vector<pollfd> polled;
   for (int fd : others) polled.push_back({fd, POLLIN, 0});
   // LCM's own waiting functions would abort the process or block for ever without a connection.
@@ -184,7 +174,7 @@ bool Link::wait(int timeout_ms, std::span<const int> others) {
   if (poll(polled.data(), polled.size(), timeout_ms) <= 0) return true;
   if (!(polled.back().revents & (POLLIN | POLLHUP | POLLERR))) return true;
   std::optional<Silenced> lcm;
-  if (tcp_ && is_closed(fd)) lcm.emplace();
+  if (is_closed(fd)) lcm.emplace();
   const bool good = lcm_handle(lcm_) == 0;
   tune();
   return good;
