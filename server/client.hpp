@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "server/link.hpp"
+#include "server/link/link.hpp"
 #include "server/wire/wire.hpp"
 
 namespace genio {

@@ -51,6 +51,9 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
       case 'D':
         good = skip(8 * size_t(count));
         break;
+      case 'B':
+        good = skip(size_t(count));
+        break;
       case 'S':
         for (int32_t i = 0; i < count && good; ++i) good = skip_string();
         break;

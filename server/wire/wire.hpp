@@ -10,6 +10,8 @@
 #include "genio/ack_t.hpp"
 #include "genio/cancel_t.hpp"
 #include "genio/command_reply_t.hpp"
+#include "genio/part_ask_t.hpp"
+#include "genio/part_t.hpp"
 #include "genio/progress_t.hpp"
 #include "genio/server_status_t.hpp"
 #include "genio/shape_request_t.hpp"
@@ -21,16 +23,18 @@ inline constexpr int max_array_length = 20000;
 inline constexpr int max_string_length = 1 << 16;  ///< bytes
 
 /// Fields of a message in order: l int64, i int32, b int8, d double, s string, n int32 that counts
-/// the arrays after it, D double[n], I int32[n], S string[n].
+/// the arrays after it, D double[n], I int32[n], B byte[n],
+/// S string[n].
 template <class T>
 struct WireLayout;
 template <>
 struct WireLayout<shape_request_t> {
-  static constexpr const char* fields = "lsssssdissddddnDDnDDDDSddbi";
+  static constexpr const char* fields = "lsssssdissddddddnDDnDDDDSddbi";
 };
 template <>
 struct WireLayout<command_reply_t> {
-  static constexpr const char* fields = "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD";
+  static constexpr const char* fields =
+      "lssssssdssdsnSDDDDDDDDDdinSSDDDDnISDnSnSDDDdddiiddisddddddnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {
@@ -47,6 +51,14 @@ struct WireLayout<ack_t> {
 template <>
 struct WireLayout<server_status_t> {
   static constexpr const char* fields = "lsnSSiiillllllllllllllddddd";
+};
+template <>
+struct WireLayout<part_t> {
+  static constexpr const char* fields = "lssiinB";
+};
+template <>
+struct WireLayout<part_ask_t> {
+  static constexpr const char* fields = "lsnI";
 };
 
 /// Walks the bytes after the fingerprint along `fields`; empty when they fit exactly, else what is

@@ -35,7 +35,8 @@ std::vector<Field> fields_of(const std::filesystem::path& file) {
 std::string layout_of(const std::vector<Field>& fields) {
   const std::map<std::string, char> scalars = {
       {"int64_t", 'l'}, {"int32_t", 'i'}, {"int8_t", 'b'}, {"double", 'd'}, {"string", 's'}};
-  const std::map<std::string, char> arrays = {{"double", 'D'}, {"int32_t", 'I'}, {"string", 'S'}};
+  const std::map<std::string, char> arrays = {
+      {"double", 'D'}, {"int32_t", 'I'}, {"byte", 'B'}, {"string", 'S'}};
   const auto counts = [&](const std::string& name) {
     return std::any_of(fields.begin(), fields.end(),
                        [&](const Field& f) { return f.count == name; });
@@ -61,7 +62,9 @@ const std::map<std::string, std::string> layouts = {
     {"progress_t", WireLayout<progress_t>::fields},
     {"cancel_t", WireLayout<cancel_t>::fields},
     {"ack_t", WireLayout<ack_t>::fields},
-    {"server_status_t", WireLayout<server_status_t>::fields}};
+    {"server_status_t", WireLayout<server_status_t>::fields},
+    {"part_t", WireLayout<part_t>::fields},
+    {"part_ask_t", WireLayout<part_ask_t>::fields}};
 
 TEST(WireLayouts, EachIsThatOfItsLcmFile) {
   size_t files = 0;
