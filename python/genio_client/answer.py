@@ -28,6 +28,7 @@ class Estimate:
     sd: float
     low: float  # 90 % interval
     high: float
+    unit: str
 
 
 @dataclass(frozen=True)
@@ -68,6 +69,7 @@ class Answer:
     others: dict[str, Estimate]
     alternatives: list[Alternative]  # likeliest first
     registration: dict[str, Any]  # of points in a device's frame; docs/service.md
+    placed: tuple[float, ...] | None  # for further requests of that device; None: of no device
     label: str
     time_s: float
     wall_s: float  # that the computation took
@@ -121,13 +123,14 @@ def answer_of(reply: Any) -> Answer:
         either=[Either(tuple(names.split("+")), acts, low, high) for names, acts, low, high
                 in zip(r.either, r.either_acts, r.either_low_N, r.either_high_N)],
         others={r.other[i]: Estimate(r.other_value[i], r.other_sd[i], r.other_low[i],
-                                     r.other_high[i]) for i in range(r.other_count)},
+                                     r.other_high[i], r.other_unit[i])
+                for i in range(r.other_count)},
         alternatives=[
             Alternative(r.alternative_weight[k], r.alternative_rms_mm[k],
                         dict(zip(r.muscle, r.alternative_force_N[k * r.muscle_count:])))
             for k in range(r.alternative_count)],
-        registration=_registration(r.registration), label=r.label, time_s=r.time_s,
-        wall_s=r.wall_s, waited_s=r.waited_s, retry_after_s=r.retry_after_s, raw=r)
+        registration=_registration(r.registration), placed=_placed(r), label=r.label,
+        time_s=r.time_s, wall_s=r.wall_s, waited_s=r.waited_s, retry_after_s=r.retry_after_s, raw=r)
 
 
 def progress_of(progress: Any) -> Progress:
@@ -143,6 +146,11 @@ def status_of(status: Any) -> Status:
 def wants_another_try(reply: Any) -> bool:
     """A refusal that holds for some time only, such as a full queue."""
     return reply.status == "refused" and 0 < reply.retry_after_s < math.inf
+
+
+def _placed(r: Any) -> tuple[float, ...] | None:
+    numbers = (r.scale, r.tilt_deg, r.shift_x_mm, r.shift_z_mm, r.shift_sd_mm, r.tilt_sd_deg)
+    return numbers if r.registration and all(map(math.isfinite, numbers)) else None
 
 
 def _registration(text: str) -> dict[str, Any]:

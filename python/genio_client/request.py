@@ -27,7 +27,7 @@ class RequestOptions(TypedDict, total=False):
     bilateral: bool | None  # left and right together or apart; None: as the points allow
     starts: int  # descents, to find other answers that fit; 0: until the shape is explained
     palate: Sequence[Point] | None  # the points are in a device's frame; its palate trace, x, z
-    placed: tuple[float, float, float, float] | None  # likewise: scale, tilt_deg, shift_x, shift_z
+    placed: Sequence[float] | None  # likewise, and laid before: an earlier answer's `placed`
 
 
 def make_request(points: Sequence[Point], *, kinds: str | Sequence[str] | None = None,
@@ -35,7 +35,7 @@ def make_request(points: Sequence[Point], *, kinds: str | Sequence[str] | None =
                  prior: str | pathlib.Path = "", label: str = "", time_s: float | None = None,
                  priority: int = 0, deadline_s: float = 0.0, bilateral: bool | None = None,
                  starts: int = 0, palate: Sequence[Point] | None = None,
-                 placed: tuple[float, float, float, float] | None = None) -> Any:
+                 placed: Sequence[float] | None = None) -> Any:
     """A shape_request_t without id, client, stream and time. Raises InvalidInput, which names the
     argument, for what cannot be written into the message; what it means is the server's to say."""
     request = shape_request_t()
@@ -59,10 +59,12 @@ def make_request(points: Sequence[Point], *, kinds: str | Sequence[str] | None =
         request.palate_x_mm, request.palate_z_mm = [p[0] for p in trace], [p[2] for p in trace]
     elif placed is not None:
         request.frame = "placed"
-        if len(placed) != 4:
-            raise InvalidInput("placed: expected scale, tilt_deg, shift_x_mm and shift_z_mm")
-        (request.scale, request.tilt_deg, request.shift_x_mm,
-         request.shift_z_mm) = (_number(v, "placed") for v in placed)
+        if len(placed) not in (4, 6):
+            raise InvalidInput("placed: expected scale, tilt_deg, shift_x_mm and shift_z_mm, and "
+                               "if they are not known exactly shift_sd_mm and tilt_sd_deg")
+        (request.scale, request.tilt_deg, request.shift_x_mm, request.shift_z_mm,
+         request.shift_sd_mm, request.tilt_sd_deg) = (
+             _number(v, "placed") for v in (*placed, 0.0, 0.0)[:6])
     return request
 
 

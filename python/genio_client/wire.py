@@ -11,8 +11,8 @@ MAX_STRING_BYTES = 1 << 16
 # Fields of a message in order: l int64, i int32, b int8, d double, s string, n int32 that counts
 # the arrays after it, D double[n], I int32[n], S string[n].
 LAYOUTS = {
-    "shape_request_t": "lsssssdissddddnDDnDDDDSddbi",
-    "command_reply_t": "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD",
+    "shape_request_t": "lsssssdissddddddnDDnDDDDSddbi",
+    "command_reply_t": "lssssssdssdsnSDDDDDDDDDdinSSDDDDnISDnSnSDDDdddiiddisddddddnDDdnDDnD",
     "progress_t": "lssid",
     "cancel_t": "lss",
     "ack_t": "lss",

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "server/base/safe_text.hpp"
+
 namespace genio {
 namespace {
 
@@ -113,14 +115,8 @@ void fill_placement(const std::optional<RequestPlacement>& placement, command_re
 }
 
 std::string reason_text(const std::string& reason) {
-  std::string text = reason.substr(0, longest_reason);
-  // A character that was cut through is left out whole.
-  if (text.size() < reason.size()) {
-    while (!text.empty() && (reason[text.size()] & 0xC0) == 0x80) text.pop_back();
-    text += "...";
-  }
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
+  std::string text = escaped_text(reason);
+  if (text.size() > longest_reason) text = std::string(cut_text(text, longest_reason)) + "...";
   return text;
 }
 

@@ -15,8 +15,8 @@ void fill_answer(const TongueLine& line, const Answer& answer, command_reply_t& 
 /// doubtful.
 void fill_placement(const std::optional<RequestPlacement>& placement, command_reply_t& reply);
 
-/// A reason as a reply may carry it: one line of at most 2000 bytes, as it may quote what a client
-/// sent.
+/// A reason as a reply may carry it: some 2000 bytes at most and none that steers a terminal, as it
+/// may quote what a client sent.
 std::string reason_text(const std::string& reason);
 
 }  // namespace genio

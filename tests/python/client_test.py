@@ -18,7 +18,9 @@ class Asking(unittest.TestCase):
                       alternative_weight=[0.25], alternative_rms_mm=[0.5],
                       alternative_force_count=2, alternative_force_N=[3.0, 4.0],
                       group_count=1, unidentified=["GGP+SL"], rms_mm=0.5, line_count=1,
-                      line_x_mm=[1.0], line_z_mm=[2.0], registration='{"scale": 1.5}')
+                      line_x_mm=[1.0], line_z_mm=[2.0], registration='{"scale": 1.5}',
+                      scale=1.5, shift_sd_mm=0.5, tilt_sd_deg=1.0, other_count=1, other=["a"], other_unit=["deg"],
+                      other_value=[2.0], other_sd=[1.0], other_low=[0.0], other_high=[4.0])
         for name in ("force_N", "max_force_N", "sd_N", "low_N", "high_N", "acts", "median_N",
                      "mean_N", "information_bits"):
             fields[name] = [float(len(fields)), math.nan]
@@ -30,6 +32,8 @@ class Asking(unittest.TestCase):
             self.assertEqual(answer.alternatives[0].forces_N, {"GGP": 3.0, "SL": 4.0})
             self.assertEqual((answer.line, answer.unidentified), ([(1.0, 2.0)], [["GGP", "SL"]]))
             self.assertEqual(answer.registration, {"scale": 1.5})
+            self.assertEqual(answer.placed, (1.5, 0, 0, 0, 0.5, 1))
+            self.assertEqual((answer.others["a"].value, answer.others["a"].unit), (2, "deg"))
             self.assertTrue(hub.eventually(lambda: hub.of("GENIO_ACK")))
             ack = wire.decode(messages.ack_t, hub.of("GENIO_ACK")[0])
             self.assertEqual((ack.id, ack.client), (answer.id, client.name))

@@ -36,6 +36,9 @@ class Request(unittest.TestCase):
         r = make_request(POINTS, placed=(1.1, 2, 3, 4), bilateral=True)
         self.assertEqual((r.frame, r.scale, r.tilt_deg, r.shift_x_mm, r.shift_z_mm, r.bilateral),
                          ("placed", 1.1, 2, 3, 4, 1))
+        self.assertEqual((r.shift_sd_mm, r.tilt_sd_deg), (0, 0))
+        r = make_request(POINTS, placed=(1.1, 2, 3, 4, 0.5, 0.25))
+        self.assertEqual((r.shift_z_mm, r.shift_sd_mm, r.tilt_sd_deg), (4, 0.5, 0.25))
         self.assertTrue(math.isnan(make_request(POINTS).time_s))
 
     def test_what_is_wrong_is_named(self):
@@ -44,7 +47,7 @@ class Request(unittest.TestCase):
                 ("point 2", [(1, 2), (1,)], {}), ("point 1", [(1, "b")], {}), ("point 1", [3], {}),
                 ("points", many, {}), ("palate", POINTS, {"palate": many}),
                 ("palate point 1", POINTS, {"palate": [(1, 2, 3)]}),
-                ("placed", POINTS, {"placed": (1, 2)}),
+                ("placed", POINTS, {"placed": (1, 2)}), ("placed", POINTS, {"placed": range(5)}),
                 ("palate", POINTS, {"palate": POINTS, "placed": (1, 0, 0, 0)}),
                 ("kinds", POINTS, {"kinds": ["tip"]}), ("kinds", POINTS, {"kinds": [1, 2]}),
                 ("sigma_mm", POINTS, {"sigma_mm": [1]}), ("sigma_mm", POINTS, {"sigma_mm": "a"}),
