@@ -97,6 +97,7 @@ class ServiceLoop {
     }
     collect();
     if (status_asked_ || uptime_.seconds() >= next_status_) tell_status();
+    if (!serving_ && heard_ && pool_.alive() > 0) serving_ = true, observer_.serving(status());
     observer_.turn();
     if (up) departures_.publish(link_);
     else departures_.keep_replies();
@@ -188,7 +189,6 @@ class ServiceLoop {
     departures_.add({"GENIO_STATUS", encode(s)});
     // Whoever hears himself is heard by others.
     if (!heard_) departures_.add({"GENIO_ASK_STATUS", {0}});
-    if (heard_ && s.workers > 0 && !std::exchange(serving_, true)) observer_.serving(s);
     if (uptime_.seconds() >= next_status_) {
       next_status_ = uptime_.seconds() + status_period;
       observer_.status(s);

@@ -66,8 +66,8 @@ done
 
 # A megabyte of points: whatever comes of it, the client is told.
 awk -F, 'NR == 1 { print; next } { line[NR] = $0 } END {
-  for (k = 1; k <= 20000; ++k) { split(line[2 + (k - 1) % (NR - 1)], f, ",")
-    printf "1,%d,%.4f,%.4f,%s,many points\n", k, f[3] + 0.0001 * k, f[4], 20 } }' \
+  for (k = 1; k <= 20000; ++k) { split(line[2 + int((k - 1) * (NR - 1) / 20000)], f, ",")
+    printf "1,%d,%.4f,%.4f,%s,many points\n", k, f[3] + 0.00001 * k, f[4], 20 } }' \
   "$source/data/examples/example_shape.csv" >"$work/many.csv"
 ask --target "$work/many.csv" --deadline-s 5 --timeout-s 60 >"$work/answer" || true
 grep -q '"status":' "$work/answer" || fail "the large request was not answered"
