@@ -19,7 +19,7 @@ class Client {
 
   /// Sends the request (filling id, client and time where empty) and waits for its reply; asks
   /// again after 1, 2, 4 and at most 8 s, which a server computes once. Nothing when no reply came
-  /// in time.
+  /// in time. Throws InputError where the request is larger than any server takes.
   std::optional<command_reply_t> request(
       shape_request_t request, double timeout_s,
       const std::function<void(const progress_t&)>& progress = {});
