@@ -150,13 +150,11 @@ TEST(Link, NothingIsPrintedWhereNobodyListens) {
 TEST(Link, ARequestThatNoServerTakesIsRefusedBeforeItIsSent) {
   const Hub hub(0);
   Client client("tcpq://127.0.0.1:" + std::to_string(hub.port()));
-  for (const int points : {20001, 1000000}) {
-    shape_request_t r{};
-    r.point_count = points;
-    for (auto* v : {&r.x_mm, &r.y_mm, &r.z_mm, &r.sigma_mm}) v->resize(size_t(points));
-    r.kind.resize(size_t(points));
-    EXPECT_THROW(client.request(r, 60), InputError) << points;
-  }
+  shape_request_t r{};
+  r.point_count = 1000000;
+  for (auto* v : {&r.x_mm, &r.y_mm, &r.z_mm, &r.sigma_mm}) v->resize(size_t(r.point_count));
+  r.kind.resize(size_t(r.point_count));
+  EXPECT_THROW(client.request(r, 60), InputError);
   EXPECT_TRUE(client.connected());
 }
 
