@@ -11,6 +11,7 @@
 #include "genio/cancel_t.hpp"
 #include "genio/command_reply_t.hpp"
 #include "genio/progress_t.hpp"
+#include "genio/sealed_t.hpp"
 #include "genio/server_status_t.hpp"
 #include "genio/shape_request_t.hpp"
 
@@ -20,8 +21,9 @@ inline constexpr size_t max_message_bytes = 4u << 20;
 inline constexpr int max_array_length = 20000;
 inline constexpr int max_string_length = 1 << 16;  ///< bytes
 
-/// Fields of a message in order: l int64, i int32, b int8, d double, s string, n int32 that counts
-/// the arrays after it, D double[n], I int32[n], S string[n].
+/// Fields of a message in order: l int64, i int32, b int8 or byte, d double, s string, n int32 that
+/// counts the arrays after it, D double[n], I int32[n], S string[n], B byte[n]. Bytes are counted
+/// by m, which may be as large as a message, in the place of n. A fixed array is written out.
 template <class T>
 struct WireLayout;
 template <>
@@ -30,7 +32,8 @@ struct WireLayout<shape_request_t> {
 };
 template <>
 struct WireLayout<command_reply_t> {
-  static constexpr const char* fields = "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD";
+  static constexpr const char* fields =
+      "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {
@@ -48,6 +51,20 @@ template <>
 struct WireLayout<server_status_t> {
   static constexpr const char* fields = "lsnSSiiillllllllllllllddddd";
 };
+template <>
+struct WireLayout<sealed_t> {
+  static constexpr const char* fields =
+      "l"
+      "bbbbbbbbbbbbbbbb"
+      "smB"
+      "bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb";
+};
+
+/// Of one message. What a seal holds may be as large as a message without one.
+template <class T>
+inline constexpr size_t most_bytes = max_message_bytes;
+template <>
+inline constexpr size_t most_bytes<sealed_t> = max_message_bytes + 1024;
 
 /// Walks the bytes after the fingerprint along `fields`; empty when they fit exactly, else what is
 /// wrong.
@@ -58,7 +75,7 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields);
 template <class T>
 std::optional<T> decode_checked(const void* data, size_t size, std::string& why) {
   const auto* bytes = static_cast<const uint8_t*>(data);
-  if (size > max_message_bytes) return why = "the message is too large", std::nullopt;
+  if (size > most_bytes<T>) return why = "the message is too large", std::nullopt;
   if (size < 8) return why = "the message is shorter than a fingerprint", std::nullopt;
   int64_t hash = 0;
   for (int i = 0; i < 8; ++i) hash = int64_t(uint64_t(hash) << 8 | bytes[i]);

@@ -23,6 +23,12 @@ std::string sample_request() {
   return bytes_of(r);
 }
 
+std::string sample_sealed() {
+  sealed_t s{};
+  s.channel = "GENIO_ACK", s.body = encode(ack_t{}), s.size = int(s.body.size());
+  return bytes_of(s);
+}
+
 template <class T>
 bool decodes(const std::string& bytes, std::string& why) {
   return decode_checked<T>(bytes.data(), bytes.size(), why).has_value();
@@ -34,7 +40,7 @@ void read_message(const std::string& path) {
   std::string why;
   if (!decodes<shape_request_t>(bytes, why) && !decodes<command_reply_t>(bytes, why) &&
       !decodes<progress_t>(bytes, why) && !decodes<cancel_t>(bytes, why) &&
-      !decodes<server_status_t>(bytes, why))
+      !decodes<server_status_t>(bytes, why) && !decodes<sealed_t>(bytes, why))
     throw InputError(why);
 }
 
@@ -44,7 +50,7 @@ std::vector<FuzzReader> wire_readers() {
   return {{"wire",
            "message",
            {sample_request(), bytes_of(command_reply_t{}), bytes_of(progress_t{}),
-            bytes_of(cancel_t{}), bytes_of(server_status_t{})},
+            bytes_of(cancel_t{}), bytes_of(server_status_t{}), sample_sealed()},
            read_message}};
 }
 
