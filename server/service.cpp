@@ -14,7 +14,7 @@
 #include "server/answer_request.hpp"
 #include "server/dispatch/dispatcher.hpp"
 #include "server/journalled.hpp"
-#include "server/link.hpp"
+#include "server/sealed_link.hpp"
 
 namespace genio {
 namespace {
@@ -61,15 +61,18 @@ void compute(const Model& model, const ServiceOptions& options, RequestWorker& w
   }
 }
 
-OutgoingMessage status_message(const Dispatcher& dispatcher, const Model& model, double uptime) {
+OutgoingMessage status_message(const Dispatcher& dispatcher, const Model& model,
+                               const SealDrops& dropped, double uptime) {
   server_status_t s = dispatcher.counts();
   s.utime = now_us(), s.version = GENIO_VERSION, s.uptime_s = uptime;
+  s.unsigned_dropped = dropped.unsealed, s.forged_dropped = dropped.forged;
+  s.stale_dropped = dropped.stale;
   s.model = {model.name}, s.model_hash = {""}, s.model_count = 1;
   return {"GENIO_STATUS", encode(s)};
 }
 
 /// Publishes from the front until one cannot be sent; the rest stays.
-void publish(Link& link, std::deque<OutgoingMessage>& messages) {
+void publish(SealedLink& link, std::deque<OutgoingMessage>& messages) {
   while (!messages.empty() && link.publish(messages.front().channel, messages.front().bytes))
     messages.pop_front();
 }
@@ -100,7 +103,8 @@ void serve(const Model& model, const ServiceOptions& options, const std::atomic<
     for (const JournalEntry& entry : journal->unanswered())
       dispatcher.resume(accepted_record(entry), entry.tries);
   RequestWorker worker(model);
-  Link link(options.url);
+  SealedLink link(options.url, options.key);
+  link.ask_for_key_on({"GENIO_REQUEST", "GENIO_CANCEL"});
   bool status_asked = true;
   link.subscribe("GENIO_REQUEST", [&](const std::string&, const void* data, size_t size) {
     dispatcher.receive_request(data, size, now_us());
@@ -133,7 +137,7 @@ void serve(const Model& model, const ServiceOptions& options, const std::atomic<
     collect();
     if (status_asked || uptime.seconds() >= next_status) {
       status_asked = false, next_status = uptime.seconds() + status_period;
-      leaving.push_back(status_message(dispatcher, model, uptime.seconds()));
+      leaving.push_back(status_message(dispatcher, model, link.dropped(), uptime.seconds()));
     }
     if (up) publish(link, leaving);
     if (journal && uptime.seconds() >= next_prune) {

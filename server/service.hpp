@@ -7,11 +7,13 @@
 
 #include "forward/model/model.hpp"
 #include "server/dispatch/limits.hpp"
+#include "server/seal/seal_key.hpp"
 
 namespace genio {
 
 struct ServiceOptions {
   std::string url;  ///< as choose_url gives it
+  SharedKey key;    ///< only who seals with it may ask; null: everyone may
   DispatchLimits limits;
   /// File that keeps requests and replies, see docs/journal.md; empty: they end with the process.
   std::string journal;

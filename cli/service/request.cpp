@@ -21,7 +21,7 @@ namespace {
 
 struct RequestOptions {
   MeasuredOptions measured;
-  std::string url, model = default_model(), out, cancel_id, client;
+  std::string url, model = default_model(), out, cancel_id, client, key;
   double timeout_s = 120, deadline_s = 0;
   int starts = 0;
   bool json = false;
@@ -43,6 +43,16 @@ shape_request_t request_of(const ContourFrame& frame, double noise, const Reques
   r.starts = o.starts;
   r.bilateral = -1;
   return r;
+}
+
+SharedKey key_of(const RequestOptions& o) {
+  return o.key.empty() ? SharedKey{} : read_key_file(o.key);
+}
+
+/// What is told when nobody answered, with what the messages that came hint at.
+std::runtime_error silence(const std::string& what, const Client& client) {
+  const std::string doubt = client.doubt();
+  return std::runtime_error(doubt.empty() ? what : fmt::format("{} ({})", what, doubt));
 }
 
 /// Names that stand joined by '+'.
@@ -96,6 +106,7 @@ AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
 }
 
 int run_request(const RequestOptions& o) {
+  const SharedKey key = key_of(o);
   // The server computes; the model is read here only to register contours or to draw.
   std::optional<Model> read;
   const auto model = [&]() -> const Model& {
@@ -103,7 +114,7 @@ int run_request(const RequestOptions& o) {
     return *read;
   };
   const Measured measured = read_measured(o.measured, model, print_line);
-  Client client(choose_url(o.url), o.client);
+  Client client(choose_url(o.url), o.client, key);
   if (!client.connected())
     print_line(fmt::format("nobody listens on {} yet; waiting for up to {} s", choose_url(o.url),
                            o.timeout_s));
@@ -118,8 +129,9 @@ int run_request(const RequestOptions& o) {
         });
     if (told) fmt::print(stderr, "\n");
     if (!reply)
-      throw std::runtime_error(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
-                                           choose_url(o.url), o.timeout_s));
+      throw silence(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
+                                choose_url(o.url), o.timeout_s),
+                    client);
     const AnswerView view = with_registration(view_of(*reply, frame), measured.registration);
     all &= view.status == "converged";
     if (o.json) fmt::print("{}\n", answer_json(view, frame.number));
@@ -131,11 +143,11 @@ int run_request(const RequestOptions& o) {
 }
 
 int run_status(const RequestOptions& o) {
-  Client client(choose_url(o.url));
+  Client client(choose_url(o.url), "", key_of(o));
   const auto s = client.status(o.timeout_s);
   if (!s)
-    throw std::runtime_error(
-        fmt::format("no server on {} within {} s", choose_url(o.url), o.timeout_s));
+    throw silence(fmt::format("no server on {} within {} s", choose_url(o.url), o.timeout_s),
+                  client);
   fmt::print("{}\n", status_json(*s, o.json ? -1 : 2));
   return done;
 }
@@ -144,13 +156,13 @@ int run_status(const RequestOptions& o) {
 std::string client_of(const std::string& id) { return id.substr(0, id.rfind('-')); }
 
 int run_cancel(const RequestOptions& o) {
-  Client client(choose_url(o.url), o.client.empty() ? client_of(o.cancel_id) : o.client);
+  Client client(choose_url(o.url), o.client.empty() ? client_of(o.cancel_id) : o.client, key_of(o));
   if (!client.connected())
     throw std::runtime_error(fmt::format("nobody listens on {}", choose_url(o.url)));
   const auto reply = client.cancel(o.cancel_id, o.timeout_s);
   if (!reply)
-    throw std::runtime_error(
-        fmt::format("no answer on {} within {} s", choose_url(o.url), o.timeout_s));
+    throw silence(fmt::format("no answer on {} within {} s", choose_url(o.url), o.timeout_s),
+                  client);
   print_line(fmt::format("{}: {}{}{}", o.cancel_id, reply->status,
                          reply->message.empty() ? "" : ": ", reply->message));
   return reply->status == "cancelled" ? done : no_answer;
@@ -163,6 +175,7 @@ Runner add_request(Options& options) {
   options.add("--lcm", o->url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
   add_measured_options(options, o->measured);
   options.add("--client", o->client, "Name under which replies come (default: one of its own)");
+  options.add("--key", o->key, "Key file of a server that asks for one (see genio key)");
   options.add("--timeout-s", o->timeout_s, "How long to wait for each reply", {.positive = true});
   options.add("--deadline-s", o->deadline_s, "Time the server may compute", {.positive = true});
   options.add("--starts", o->starts, "Descents, to find other answers that fit",
@@ -170,10 +183,10 @@ Runner add_request(Options& options) {
   options.add("--model", o->model, "Model to register with and to show in the picture");
   options.flag("--json", o->json, "One JSON object a frame on standard output");
   options.add("--out", o->out, "Folder for pictures and numbers");
-  const Options status =
-      options.subcommand("status", "What the server is doing", {"--lcm", "--timeout-s", "--json"});
+  const Options status = options.subcommand("status", "What the server is doing",
+                                            {"--lcm", "--key", "--timeout-s", "--json"});
   Options cancel = options.subcommand("cancel", "Withdraw a request of the same client",
-                                      {"--lcm", "--timeout-s", "--client"});
+                                      {"--lcm", "--key", "--timeout-s", "--client"});
   cancel.add("id", o->cancel_id, "Id of the request", {.required = true});
   options.footer("Example: genio request --target data/examples/example_shape.csv");
   return [o, status, cancel]() -> int {

@@ -29,15 +29,19 @@ Runner add_serve(Options& options) {
   auto model = std::make_shared<std::string>(default_model());
   auto queue = std::make_shared<int>(256);
   auto journal = std::make_shared<std::string>();
+  auto key = std::make_shared<std::string>();
   options.add("--lcm", *url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
   options.add("--model", *model, "Model folder or model.toml");
   options.add("--queue", *queue, "Requests that may wait", {.range = {{1, 100000}}});
   options.add("--journal", *journal,
               "File that keeps requests and replies beyond this process (default: none)");
+  options.add("--key", *key,
+              "Key file (see genio key): who has no such key may not ask (default: everyone may)");
   options.footer("Example: genio serve --lcm tcpq://127.0.0.1:7700");
   return [=]() -> int {
-    const Model m = read_model(*model);
     ServiceOptions service;
+    if (!key->empty()) service.key = read_key_file(*key);
+    const Model m = read_model(*model);
     service.url = choose_url(*url);
     service.limits.waiting = *queue;
     service.journal = *journal;
