@@ -20,6 +20,7 @@
 #include "cli/subcommands/journal.hpp"
 #include "cli/subcommands/merge.hpp"
 #include "cli/subcommands/plan.hpp"
+#include "cli/support.hpp"
 #include "forward/base/types.hpp"
 
 namespace {
@@ -37,6 +38,7 @@ int told(int status) {
 
 int main(int argc, char** argv) {
   using namespace genio::cli;
+  fill_missing_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error that is told
   try {
     return told(run_command_line(

@@ -1,6 +1,8 @@
 #include "cli/support.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -33,6 +35,12 @@ std::pair<std::string, double> parse_assignment(const std::string& option,
   if (equals == 0 || value.empty() || *end || !std::isfinite(number))
     throw InputError(fmt::format("{} {}: expected NAME=NUMBER, for example GGP=4", option, text));
   return {text.substr(0, equals), number};
+}
+
+void fill_missing_streams() {
+  // The lowest number that is free is given.
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && open("/dev/null", O_RDONLY) < 0) return;
 }
 
 void print_line(const std::string& line) { fmt::print(stderr, "{}\n", line); }

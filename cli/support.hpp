@@ -10,6 +10,10 @@ std::string default_model();
 /// Splits "NAME=VALUE"; throws InputError naming `option`.
 std::pair<std::string, double> parse_assignment(const std::string& option, const std::string& text);
 
+/// Takes the place of standard streams that the process was started without: a file or socket that
+/// got such a number would be written into by whoever means the stream. Writing stays an error.
+void fill_missing_streams();
+
 /// A line of progress on standard error.
 void print_line(const std::string& line);
 

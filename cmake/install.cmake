@@ -19,3 +19,10 @@ configure_package_config_file(cmake/genioConfig.cmake.in ${PROJECT_BINARY_DIR}/g
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/genio)
 install(FILES ${PROJECT_BINARY_DIR}/genioConfig.cmake cmake/dependencies.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/genio)
+
+# The unit of systemd names the program by its whole path, which is only known when it is installed.
+# systemd looks below /usr and /usr/local; elsewhere `systemctl link` takes it.
+install(CODE "set(GENIO_UNIT_TEMPLATE \"${PROJECT_SOURCE_DIR}/cmake/genio.service.in\")
+set(GENIO_UNIT \"${PROJECT_BINARY_DIR}/genio.service\")
+set(GENIO_BINDIR \"${CMAKE_INSTALL_BINDIR}\")" COMPONENT unit)
+install(SCRIPT cmake/install_unit.cmake COMPONENT unit)

@@ -14,6 +14,22 @@ namespace {
 
 constexpr double first_pause_s = 1, longest_pause_s = 8;  // before asking again
 
+/// When a question is to be sent again, as it or its answer may be lost.
+class Patience {
+ public:
+  bool is_due() {
+    if (watch_.seconds() < ask_at_) return false;
+    ask_at_ = watch_.seconds() + pause_;
+    pause_ = std::min(2 * pause_, longest_pause_s);
+    return true;
+  }
+  double seconds() const { return watch_.seconds(); }
+
+ private:
+  const Stopwatch watch_;
+  double ask_at_ = 0, pause_ = first_pause_s;
+};
+
 std::string unique_name() {
   std::random_device random;
   return fmt::format("c{}-{:08x}{:08x}", getpid(), random(), random());
@@ -54,18 +70,16 @@ std::optional<command_reply_t> Client::request(
   reply_.reset();
   progress_ = progress;
   const auto bytes = encode(request);
-  const Stopwatch watch;
-  double ask_at = 0, pause = first_pause_s;
-  while (!reply_ && watch.seconds() < timeout_s) {
-    if (watch.seconds() >= ask_at) {
-      link_.publish("GENIO_REQUEST", bytes);
-      ask_at = watch.seconds() + pause;
-      pause = std::min(2 * pause, longest_pause_s);
-    }
+  if (bytes.size() > max_message_bytes)
+    throw InputError(fmt::format("the request takes {} bytes; expected at most {}", bytes.size(),
+                                 max_message_bytes));
+  for (Patience patience; !reply_ && patience.seconds() < timeout_s;) {
+    if (patience.is_due()) link_.publish("GENIO_REQUEST", bytes);
     link_.wait(20);
   }
   progress_ = {};
-  if (reply_) {
+  // A refusal is none of the replies that are kept; the id may be another client's.
+  if (reply_ && reply_->status != "refused") {
     ack_t ack{};
     ack.utime = now_us(), ack.id = reply_->id, ack.client = name_;
     link_.publish("GENIO_ACK", encode(ack));
@@ -78,9 +92,8 @@ std::optional<command_reply_t> Client::cancel(const std::string& id, double time
   c.utime = now_us(), c.id = id, c.client = name_;
   waiting_for_ = id;
   reply_.reset();
-  const Stopwatch watch;
-  for (bool sent = false; !reply_ && watch.seconds() < timeout_s;) {
-    if (!sent) sent = link_.publish("GENIO_CANCEL", encode(c));
+  for (Patience patience; !reply_ && patience.seconds() < timeout_s;) {
+    if (patience.is_due()) link_.publish("GENIO_CANCEL", encode(c));
     link_.wait(20);
   }
   return reply_;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "server/sealed_link.hpp"
+#include "server/seal/sealed_link.hpp"
 #include "server/wire/wire.hpp"
 
 namespace genio {

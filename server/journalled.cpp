@@ -11,6 +11,7 @@ JournalEntry entry_of(const AcceptedRecord& r) {
   JournalEntry entry;
   entry.id = r.id, entry.client = r.client, entry.request = r.request;
   entry.accepted_us = r.accepted, entry.deadline_us = r.deadline;
+  entry.model = r.model, entry.stream = r.stream, entry.priority = r.priority;
   std::copy_n(r.digest.begin(), std::min(r.digest.size(), entry.digest.size()),
               entry.digest.begin());
   return entry;
@@ -35,8 +36,7 @@ struct Writer {
     }
     return "";
   }
-  std::string operator()(const TriedRecord& r) const { return journal.tried(r.id), ""; }
-  std::string operator()(const UntriedRecord& r) const { return journal.untried(r.id), ""; }
+  std::string operator()(const LostRecord& r) const { return journal.tried(r.id), ""; }
   std::string operator()(const AnsweredRecord& r) const {
     return journal.answered(r.id, r.reply, r.status, now), "";
   }
@@ -47,14 +47,17 @@ struct Writer {
 
 }  // namespace
 
-std::optional<KnownRequest> known_request(const Journal& journal, const std::string& id) {
-  const auto entry = journal.find(id, Blobs::with);
+std::optional<KnownRequest> known_request(const JournalView& journal, const std::string& id) try {
+  const auto entry = journal.find(id);
   if (!entry) return {};
   return KnownRequest{text_of(entry->digest), entry->reply};
+} catch (const InputError&) {
+  return {};
 }
 
 AcceptedRecord accepted_record(const JournalEntry& e) {
-  return {e.id, e.client, text_of(e.digest), e.request, e.accepted_us, e.deadline_us};
+  return {e.id,          e.client, text_of(e.digest), e.request, e.accepted_us,
+          e.deadline_us, e.model,  e.stream,          e.priority};
 }
 
 std::vector<Unkept> write_records(Journal& journal, const std::vector<Record>& records,

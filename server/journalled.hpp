@@ -3,11 +3,13 @@
 
 #include "server/dispatch/record.hpp"
 #include "server/journal/journal.hpp"
+#include "server/journal/journal_view.hpp"
 
 namespace genio {
 
-/// What stands in the journal of an id; nothing where the id was never used.
-std::optional<KnownRequest> known_request(const Journal& journal, const std::string& id);
+/// What stands on the disk of an id; nothing where the id was never used. An entry that is damaged
+/// counts as unknown.
+std::optional<KnownRequest> known_request(const JournalView& journal, const std::string& id);
 
 /// Of an entry that was accepted and not answered.
 AcceptedRecord accepted_record(const JournalEntry& entry);

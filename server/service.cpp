@@ -1,154 +1,239 @@
 #include "server/service.hpp"
 
-#include <fmt/format.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <deque>
+#include <fstream>
 #include <memory>
-#include <set>
-#include <thread>
+#include <utility>
 
 #include "forward/base/elapsed.hpp"
-#include "server/answer_request.hpp"
-#include "server/dispatch/dispatcher.hpp"
-#include "server/journalled.hpp"
-#include "server/sealed_link.hpp"
+#include "server/keeper.hpp"
+#include "server/seal/sealed_link.hpp"
 
 namespace genio {
 namespace {
 
-constexpr double status_period = 1;                   // [s]
-constexpr double prune_period = 60, prune_again = 1;  // [s]
-constexpr int turn_ms = 20;                           // how exactly deadlines hold
+constexpr double status_period = 1, longest_end = 5;  // [s]
+constexpr int longest_turn_ms = 100;
+constexpr size_t most_undelivered = 64u << 20;  // bytes, while nobody can be reached
 
-/// Ends a thread's waiting for messages from another thread.
-class WakeUp {
+double resident_mb() {
+  double size = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident;
+  return 1e-6 * resident * double(sysconf(_SC_PAGESIZE));
+}
+
+/// Messages that are to be published, in their order.
+class Departures {
  public:
-  ~WakeUp() { close(descriptor_); }
-  int descriptor() const { return descriptor_; }
-  void ring() const {
-    const uint64_t one = 1;
-    [[maybe_unused]] const auto n = write(descriptor_, &one, sizeof one);
+  void add(OutgoingMessage message) {
+    bytes_ += message.bytes.size();
+    messages_.push_back(std::move(message));
   }
-  void clear() const {
-    uint64_t count = 0;
-    [[maybe_unused]] const auto n = read(descriptor_, &count, sizeof count);
+  /// Publishes from the front until one cannot be sent.
+  void publish(SealedLink& link) {
+    while (!messages_.empty() && link.publish(messages_.front().channel, messages_.front().bytes))
+      drop_first();
+  }
+  /// While the connection is down: news are no news afterwards, and replies are asked for again.
+  void keep_replies() {
+    std::deque<OutgoingMessage> kept;
+    for (OutgoingMessage& m : messages_)
+      if (m.channel.starts_with("GENIO_REPLY.")) kept.push_back(std::move(m));
+    messages_.clear(), bytes_ = 0;
+    for (OutgoingMessage& m : kept) add(std::move(m));
+    while (bytes_ > most_undelivered) drop_first();
   }
 
  private:
-  int descriptor_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  void drop_first() {
+    bytes_ -= messages_.front().bytes.size();
+    messages_.pop_front();
+  }
+  std::deque<OutgoingMessage> messages_;
+  size_t bytes_ = 0;
 };
 
-void compute(const Model& model, const ServiceOptions& options, RequestWorker& worker,
-             Dispatcher& dispatcher) {
-  while (const auto next = dispatcher.next()) {
-    const std::string& id = next->request.id;
-    const Stopwatch watch;
-    RequestHooks hooks;
-    hooks.progress = [&](int iteration, double rms) {
-      dispatcher.report_progress(id, iteration, rms);
-    };
-    hooks.improved = [&](command_reply_t so_far) { dispatcher.keep_best(id, std::move(so_far)); };
-    hooks.cancelled = [&] { return dispatcher.withdrawn(id); };
-    const command_reply_t reply =
-        answer_request(model, next->request, next->deadline_s, worker, hooks);
-    if (options.log)
-      options.log(fmt::format("{}: {} {} rms {:.3f} mm in {:.2f} s", id, reply.status,
-                              reply.verdict, reply.rms_mm, reply.wall_s));
-    dispatcher.finish(id, reply, watch.seconds());
+JournalLookup lookup_in(const Keeper* keeper) {
+  if (!keeper) return {};
+  return {[keeper](const std::string& id) { return keeper->find(id); }};
+}
+
+std::unique_ptr<Keeper> keeper_of(const std::string& path, Observer& observer) {
+  return std::make_unique<Keeper>(path, [&observer](const std::string& reason) {
+    observer.write(journal_failed_event(reason));
+  });
+}
+
+/// All that belongs to the thread of the messages.
+class ServiceLoop {
+ public:
+  ServiceLoop(const Nursery& nursery, const std::vector<ModelIdentity>& models,
+              const ServiceOptions& options, Observer& observer)
+      : options_(options),
+        observer_(observer),
+        keeper_(options.journal.empty() ? nullptr : keeper_of(options.journal, observer)),
+        dispatcher_(options.limits, models, lookup_in(keeper_.get())),
+        pool_(nursery, options.workers),
+        link_(options.url, options.key) {
+    if (keeper_) resume();
+    subscribe();
+    waited_for_ = {pool_.descriptor()};
+    if (keeper_) waited_for_.push_back(keeper_->descriptor());
   }
-}
 
-OutgoingMessage status_message(const Dispatcher& dispatcher, const Model& model,
-                               const SealDrops& dropped, double uptime) {
-  server_status_t s = dispatcher.counts();
-  s.utime = now_us(), s.version = GENIO_VERSION, s.uptime_s = uptime;
-  s.unsigned_dropped = dropped.unsealed, s.forged_dropped = dropped.forged;
-  s.stale_dropped = dropped.stale;
-  s.model = {model.name}, s.model_hash = {""}, s.model_count = 1;
-  return {"GENIO_STATUS", encode(s)};
-}
-
-/// Publishes from the front until one cannot be sent; the rest stays.
-void publish(SealedLink& link, std::deque<OutgoingMessage>& messages) {
-  while (!messages.empty() && link.publish(messages.front().channel, messages.front().bytes))
-    messages.pop_front();
-}
-
-/// True where there is more to prune. What cannot be pruned now is pruned later.
-bool prune(Journal& journal, const ServiceOptions& options) {
-  try {
-    return journal.prune(now_us()).more;
-  } catch (const JournalError& e) {
-    if (options.log) options.log(std::string("journal: ") + e.what());
-    return false;
+  void turn() {
+    const bool up = link_.wait(patience_ms(), waited_for_);
+    take_from_workers();
+    dispatcher_.pass_deadlines(now_us());
+    for (const std::string& id : dispatcher_.take_unwanted()) pool_.withdraw(id);
+    while (pool_.idle()) {
+      const auto next = dispatcher_.next(now_us());
+      if (!next) break;
+      pool_.start(*next, uptime_.seconds());
+    }
+    collect();
+    if (status_asked_ || uptime_.seconds() >= next_status_) tell_status();
+    if (!serving_ && heard_ && pool_.alive() > 0) serving_ = true, observer_.serving(status());
+    observer_.turn();
+    if (up) departures_.publish(link_);
+    else departures_.keep_replies();
   }
-}
+
+  void end() {
+    observer_.stopping();
+    const server_status_t told = status();
+    dispatcher_.close();
+    const Stopwatch ending;
+    while (!keeper_ && dispatcher_.running() > 0 && ending.seconds() < longest_end) turn();
+    dispatcher_.refuse_rest();
+    collect();
+    if (keeper_) keeper_->finish(), collect();
+    departures_.publish(link_);
+    const server_status_t last = status();
+    observer_.stopped(last, drain_counts(told, last, bool(keeper_)));
+  }
+
+ private:
+  void resume() {
+    const auto unanswered = keeper_->unanswered();
+    if (!unanswered.empty()) observer_.write(resumed_event(int64_t(unanswered.size())));
+    for (const JournalEntry& entry : unanswered)
+      dispatcher_.resume(accepted_record(entry), entry.tries, now_us());
+  }
+
+  void subscribe() {
+    link_.ask_for_key_on({"GENIO_REQUEST", "GENIO_CANCEL"});
+    link_.subscribe("GENIO_REQUEST", [this](const std::string&, const void* data, size_t size) {
+      dispatcher_.receive_request(data, size, now_us());
+    });
+    link_.subscribe("GENIO_CANCEL", [this](const std::string&, const void* data, size_t size) {
+      dispatcher_.receive_cancel(data, size, now_us());
+    });
+    link_.subscribe("GENIO_ACK", [this](const std::string&, const void* data, size_t size) {
+      dispatcher_.receive_ack(data, size);
+    });
+    link_.subscribe("GENIO_ASK_STATUS", [this](const std::string&, const void*, size_t) {
+      status_asked_ = heard_ = true;
+    });
+  }
+
+  /// Until something is due.
+  int patience_ms() const {
+    double wait = 1e3 * (next_status_ - uptime_.seconds());
+    if (const int64_t deadline = dispatcher_.next_deadline(); deadline > 0)
+      wait = std::min(wait, 1e-3 * double(deadline - now_us()));
+    return int(std::clamp(std::ceil(wait), 0.0, double(longest_turn_ms)));
+  }
+
+  void take_from_workers() {
+    using Kind = WorkerEvent::Kind;
+    for (WorkerEvent& event : pool_.events(uptime_.seconds())) switch (event.kind) {
+        case Kind::progress:
+          dispatcher_.report_progress(event.id, event.iteration, event.rms_mm);
+          break;
+        case Kind::improved:
+          dispatcher_.keep_best(event.id, std::move(event.reply));
+          break;
+        case Kind::answer:
+          if (options_.computed) options_.computed(event.id);
+          dispatcher_.finish(event.id, std::move(event.reply), std::move(event.state), now_us());
+          break;
+        case Kind::lost:
+          observer_.write(worker_replaced_event(event.id, event.reason));
+          dispatcher_.lost(event.id, event.reason, now_us());
+          break;
+      }
+  }
+
+  void collect() {
+    for (const ReplyNote& n : dispatcher_.take_notes())
+      observer_.write(reply_event(n.client, n.reply));
+    for (const DropNote& n : dispatcher_.take_drops())
+      observer_.write(dropped_event(n.channel, n.bytes, n.reason));
+    Outgoing outgoing = dispatcher_.take_outgoing();
+    if (!keeper_) {
+      for (OutgoingMessage& m : outgoing.messages) departures_.add(std::move(m));
+      return;
+    }
+    if (!outgoing.empty()) keeper_->hand_over(std::move(outgoing));
+    KeptBatch kept = keeper_->collect();
+    for (OutgoingMessage& m : kept.messages) departures_.add(std::move(m));
+    for (const Unkept& u : kept.unkept) dispatcher_.drop(u.id, u.reason);
+  }
+
+  void tell_status() {
+    const server_status_t s = status();
+    departures_.add({"GENIO_STATUS", encode(s)});
+    // Whoever hears himself is heard by others.
+    if (!heard_) departures_.add({"GENIO_ASK_STATUS", {0}});
+    if (uptime_.seconds() >= next_status_) {
+      next_status_ = uptime_.seconds() + status_period;
+      observer_.status(s);
+    }
+    status_asked_ = false;
+  }
+
+  server_status_t status() const {
+    server_status_t s{};
+    dispatcher_.tell(s);
+    s.utime = now_us(), s.version = GENIO_VERSION, s.uptime_s = uptime_.seconds();
+    s.workers = pool_.alive(), s.replaced = pool_.replaced();
+    s.memory_mb = resident_mb();
+    const SealDrops& dropped = link_.dropped();
+    s.unsigned_dropped = dropped.unsealed, s.forged_dropped = dropped.forged;
+    s.stale_dropped = dropped.stale;
+    if (!options_.hub) return s;
+    const HubCounts hub = options_.hub();
+    for (uint64_t drops : hub.drops) s.hub_dropped += int64_t(drops);
+    s.hub_connections = int64_t(hub.connections);
+    return s;
+  }
+
+  const ServiceOptions& options_;
+  Observer& observer_;
+  const Stopwatch uptime_;
+  std::unique_ptr<Keeper> keeper_;
+  Dispatcher dispatcher_;
+  WorkerPool pool_;
+  SealedLink link_;
+  std::vector<int> waited_for_;
+  Departures departures_;
+  double next_status_ = 0;
+  bool status_asked_ = false, heard_ = false, serving_ = false;
+};
 
 }  // namespace
 
-void serve(const Model& model, const ServiceOptions& options, const std::atomic<bool>& stop) {
-  const WakeUp wake;
-  std::unique_ptr<Journal> journal;
-  JournalLookup lookup;
-  if (!options.journal.empty()) {
-    journal = std::make_unique<Journal>(options.journal);
-    lookup.find = [&](const std::string& id) { return known_request(*journal, id); };
-  }
-  Dispatcher dispatcher(
-      options.limits, [&] { wake.ring(); }, lookup);
-  if (journal)
-    for (const JournalEntry& entry : journal->unanswered())
-      dispatcher.resume(accepted_record(entry), entry.tries);
-  RequestWorker worker(model);
-  SealedLink link(options.url, options.key);
-  link.ask_for_key_on({"GENIO_REQUEST", "GENIO_CANCEL"});
-  bool status_asked = true;
-  link.subscribe("GENIO_REQUEST", [&](const std::string&, const void* data, size_t size) {
-    dispatcher.receive_request(data, size, now_us());
-  });
-  link.subscribe("GENIO_CANCEL", [&](const std::string&, const void* data, size_t size) {
-    dispatcher.receive_cancel(data, size);
-  });
-  link.subscribe("GENIO_ACK", [&](const std::string&, const void* data, size_t size) {
-    dispatcher.receive_ack(data, size);
-  });
-  link.subscribe("GENIO_ASK_STATUS",
-                 [&](const std::string&, const void*, size_t) { status_asked = true; });
-  std::thread computing([&] { compute(model, options, worker, dispatcher); });
-  const Stopwatch uptime;
-  double next_status = 0, next_prune = prune_period;
-  std::deque<OutgoingMessage> leaving;
-  const auto collect = [&] {
-    Outgoing outgoing = dispatcher.take_outgoing();
-    std::set<std::string> unkept;
-    if (journal && !outgoing.records.empty())
-      for (const Unkept& u : write_records(*journal, outgoing.records, now_us()))
-        if (unkept.insert(u.id).second) dispatcher.drop(u.id, u.reason);
-    for (OutgoingMessage& message : outgoing.messages)
-      if (!unkept.contains(message.acknowledges)) leaving.push_back(std::move(message));
-  };
-  while (!stop) {
-    const bool up = link.wait(turn_ms, std::array{wake.descriptor()});
-    wake.clear();
-    dispatcher.pass_deadlines(now_us());
-    collect();
-    if (status_asked || uptime.seconds() >= next_status) {
-      status_asked = false, next_status = uptime.seconds() + status_period;
-      leaving.push_back(status_message(dispatcher, model, link.dropped(), uptime.seconds()));
-    }
-    if (up) publish(link, leaving);
-    if (journal && uptime.seconds() >= next_prune) {
-      next_prune = uptime.seconds() + (prune(*journal, options) ? prune_again : prune_period);
-    }
-  }
-  dispatcher.close();
-  computing.join();
-  dispatcher.refuse_waiting();
-  collect();
-  publish(link, leaving);
+void serve(const Nursery& nursery, const std::vector<ModelIdentity>& models,
+           const ServiceOptions& options, const std::atomic<bool>& stop) {
+  Observer nobody;
+  ServiceLoop loop(nursery, models, options, options.observer ? *options.observer : nobody);
+  while (!stop) loop.turn();
+  loop.end();
 }
 
 }  // namespace genio

@@ -12,4 +12,5 @@ cmake --build "$work/user" >>"$work/log" 2>&1 || { tail -30 "$work/log"; exit 1;
 "$work/genio/bin/genio" info --json | grep -q nodes
 # The pages are made where all is built, as it is where this test runs.
 grep -q 'genio invert' "$work/genio/share/man/man1/genio.1"
+PYTHONPATH="$work/genio/share/genio/python" python3 -B -c 'from genio_client import Client'
 bash -n "$work/genio/share/bash-completion/completions/genio"

@@ -21,7 +21,7 @@
 #include "bench/figures/inverse/inverse.hpp"
 #include "bench/figures/inverse/peer.hpp"
 #include "bench/figures/inverse/reach.hpp"
-#include "bench/figures/service.hpp"
+#include "bench/figures/service/service.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio::bench {

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <functional>
 #include <memory>
 
 #include "cli/option_sets/measured_options.hpp"
 #include "cli/result_json.hpp"
+#include "cli/service/request_message.hpp"
 #include "cli/support.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
+#include "inverse/prior/prior_file.hpp"
+#include "inverse/recording/frame_target.hpp"
 #include "report/answers/answer_report.hpp"
 #include "report/answers/answer_table.hpp"
 #include "runs/frames/frame.hpp"
@@ -21,28 +24,26 @@ namespace {
 
 struct RequestOptions {
   MeasuredOptions measured;
-  std::string url, model = default_model(), out, cancel_id, client, key;
+  std::string url, model = default_model(), prior, out, cancel_id, client, key;
   double timeout_s = 120, deadline_s = 0;
   int starts = 0;
-  bool json = false;
+  bool unregistered = false, json = false;
 };
 
-shape_request_t request_of(const ContourFrame& frame, double noise, const RequestOptions& o) {
-  shape_request_t r{};
-  for (const auto& p : frame.points) {
-    r.x_mm.push_back(1e3 * p.position[0]);
-    r.y_mm.push_back(1e3 * p.position[1]);
-    r.z_mm.push_back(1e3 * p.position[2]);
-    r.sigma_mm.push_back(1e3 * p.sigma);
-    r.kind.push_back(p.kind);
-  }
-  r.point_count = int(frame.points.size());
-  r.default_sigma_mm = 1e3 * noise;
-  r.deadline_s = o.deadline_s;
-  r.time_s = frame.time_s, r.label = frame.label;
-  r.starts = o.starts;
-  r.bilateral = -1;
-  return r;
+/// The frames that are asked about, and what all requests have alike.
+struct AskedShapes {
+  std::vector<ContourFrame> frames;
+  double noise = 0;                              ///< [m]
+  std::optional<RegistrationRecord> registered;  ///< none: that is the server's to do
+  shape_request_t alike{};
+};
+
+std::string sent_prior(const std::string& path) {
+  std::string text = prior_text(path);
+  if (text.size() > size_t(max_string_length))
+    throw InputError(fmt::format("--prior {}: has {} bytes; expected at most {}", path, text.size(),
+                                 max_string_length));
+  return text;
 }
 
 SharedKey key_of(const RequestOptions& o) {
@@ -55,54 +56,38 @@ std::runtime_error silence(const std::string& what, const Client& client) {
   return std::runtime_error(doubt.empty() ? what : fmt::format("{} ({})", what, doubt));
 }
 
-/// Names that stand joined by '+'.
-std::vector<std::string> parted(const std::string& joined) {
-  std::vector<std::string> names(1);
-  for (char c : joined)
-    if (c == '+') names.emplace_back();
-    else names.back() += c;
-  return names;
+/// `model` gives the one to register with, where that is done here.
+AskedShapes asked_shapes(const RequestOptions& o, const std::function<const Model&()>& model) {
+  AskedShapes asked;
+  asked.alike.deadline_s = o.deadline_s, asked.alike.starts = o.starts;
+  asked.alike.bilateral = -1;
+  if (!o.prior.empty()) asked.alike.prior = sent_prior(o.prior);
+  if (o.unregistered) {
+    Unregistered u = read_unregistered(o.measured, print_line);
+    put_palate(u.palate, asked.alike);
+    asked.frames = std::move(u.frames), asked.noise = u.noise;
+    return asked;
+  }
+  MeasuredOptions as_seen = o.measured;
+  as_seen.as_seen = true;
+  Measured m = read_measured(as_seen, model, print_line);
+  if (m.head_pose) put_place(m.transform.value_or(Similarity()), *m.head_pose, asked.alike);
+  asked.frames = std::move(m.frames), asked.noise = m.noise;
+  asked.registered = std::move(m.registration);
+  return asked;
 }
 
-AnswerView view_of(const command_reply_t& r, const ContourFrame& frame) {
-  AnswerView v;
-  tell_frame(frame, v);
-  v.status = r.status, v.message = r.message, v.verdict = r.verdict;
-  for (size_t i = 0; i < r.muscle.size(); ++i)
-    v.muscles.push_back({.name = r.muscle[i],
-                         .best = r.force_N[i],
-                         .maximum = r.max_force_N[i],
-                         .acts = r.acts[i],
-                         .median = r.median_N[i],
-                         .mean = r.mean_N[i],
-                         .sd = r.sd_N[i],
-                         .low = r.low_N[i],
-                         .high = r.high_N[i],
-                         .information_bits = r.information_bits[i]});
-  for (const auto& group : r.unidentified) v.unidentified.push_back(parted(group));
-  v.trade_offs.resize(r.unidentified.size());
-  for (size_t k = 0; k < r.trade_group.size(); ++k)
-    if (const auto group = size_t(r.trade_group[k]); group < v.trade_offs.size())
-      v.trade_offs[group].push_back({r.trade_muscle[k], r.trade_amount_N[k]});
-  if (!std::isnan(r.mirrored)) v.mirrored = r.mirrored;
-  v.mixed_optima = r.mixed_optima;
-  for (size_t k = 0; k < r.either.size(); ++k)
-    v.joint.push_back(
-        {parted(r.either[k]), r.either_acts[k], r.either_low_N[k], r.either_high_N[k]});
-  v.rms_mm = r.rms_mm, v.max_mm = r.max_mm, v.chi2_per_dof = r.chi2_per_dof;
-  v.weight = r.weight;
-  const size_t muscles = r.muscle.size();
-  for (size_t k = 0; k < r.alternative_weight.size(); ++k) {
-    Alternative other{r.alternative_weight[k], v.muscles, 1e-3 * r.alternative_rms_mm[k], {}};
-    for (size_t i = 0; i < muscles && k * muscles + i < r.alternative_force_N.size(); ++i)
-      other.muscles[i].best = r.alternative_force_N[k * muscles + i];
-    v.alternatives.push_back(std::move(other));
+/// What is shown of a reply; `model` is read where it is drawn, too.
+AnswerView shown(const command_reply_t& reply, const ContourFrame& frame, const AskedShapes& asked,
+                 const RequestOptions& o, const std::function<const Model&()>& model) {
+  AnswerView view = view_of(reply, frame);
+  if (!o.out.empty() && !view.predicted.empty()) {
+    const auto place = place_in_reply(reply);
+    const ContourFrame laid = place ? registered(model(), frame, *place) : frame;
+    view.measured = measured_points(make_target(model(), laid, asked.noise), view.others);
   }
-  v.iterations = r.ipopt_iterations, v.factorizations = r.factorizations, v.wall_s = r.wall_s;
-  for (const auto& p : frame.points) v.measured.emplace_back(p.position[0], p.position[2]);
-  for (size_t i = 0; i < r.line_x_mm.size(); ++i)
-    v.predicted.emplace_back(1e-3 * r.line_x_mm[i], 1e-3 * r.line_z_mm[i]);
-  return v;
+  if (asked.registered) return with_registration(std::move(view), *asked.registered);
+  return with_registration(std::move(view), reply.registration, false);
 }
 
 int run_request(const RequestOptions& o) {
@@ -113,26 +98,29 @@ int run_request(const RequestOptions& o) {
     if (!read) read.emplace(read_model(o.model));
     return *read;
   };
-  const Measured measured = read_measured(o.measured, model, print_line);
+  const AskedShapes asked = asked_shapes(o, model);
   Client client(choose_url(o.url), o.client, key);
   if (!client.connected())
     print_line(fmt::format("nobody listens on {} yet; waiting for up to {} s", choose_url(o.url),
                            o.timeout_s));
   bool all = true;
-  for (const auto& frame : measured.frames) {
+  for (const auto& frame : asked.frames) {
     bool told = false;
-    const auto reply =
-        client.request(request_of(frame, measured.noise, o), o.timeout_s, [&](const progress_t& p) {
-          if (o.json) return;
-          fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
-          told = true;
-        });
+    shape_request_t request = asked.alike;
+    put_frame(frame, asked.noise, request);
+    const auto reply = client.request(request, o.timeout_s, [&](const progress_t& p) {
+      if (o.json) return;
+      fmt::print(stderr, "\r{} {}: RMS {:.2f} mm   ", p.stage, p.iteration, p.rms_mm);
+      told = true;
+    });
     if (told) fmt::print(stderr, "\n");
     if (!reply)
       throw silence(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
                                 choose_url(o.url), o.timeout_s),
                     client);
-    const AnswerView view = with_registration(view_of(*reply, frame), measured.registration);
+    const AnswerView view = shown(*reply, frame, asked, o, model);
+    if (const std::string line = registration_line(*reply); o.unregistered && !line.empty())
+      print_line(line);
     all &= view.status == "converged";
     if (o.json) fmt::print("{}\n", answer_json(view, frame.number));
     else fmt::print("{}\n{}\n", view.title, to_table(view));
@@ -174,6 +162,11 @@ Runner add_request(Options& options) {
   auto o = std::make_shared<RequestOptions>();
   options.add("--lcm", o->url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
   add_measured_options(options, o->measured);
+  options.flag("--unregistered", o->unregistered,
+               "The server lays each frame beside the model, by --palate where that is given",
+               {.not_with = {"--registered", "--force-registration", "--bite-plane", "--hyoid",
+                             "--short-tendon", "--jaw-shadow", "--ignore-marks"}});
+  options.add("--prior", o->prior, "What is believed before: TOML, or a CSV of EMG");
   options.add("--client", o->client, "Name under which replies come (default: one of its own)");
   options.add("--key", o->key, "Key file of a server that asks for one (see genio key)");
   options.add("--timeout-s", o->timeout_s, "How long to wait for each reply", {.positive = true});

@@ -19,20 +19,18 @@ namespace genio {
 /// A TOML file with errors that name file, line and key.
 class TomlReader {
  public:
-  explicit TomlReader(const std::string& path) : path_(path) {
-    const std::string text = read_file(path_, largest_settings);
-    if (keys_too_deep(text)) throw InputError(path_ + ": a key of hundreds of parts is no key");
-    try {
-      root_ = toml::parse(text, path_);
-    } catch (const toml::parse_error& e) {
-      throw InputError(fmt::format("{}:{}: {}", path_, e.source().begin.line, e.description()));
-    }
+  explicit TomlReader(const std::string& path)
+      : TomlReader(path, true, read_file(path, largest_settings)) {}
+  /// Text that came without a file; errors call it `name`.
+  static TomlReader of_text(const std::string& name, const std::string& text) {
+    return TomlReader(name, false, text);
   }
   const toml::table& root() const { return root_; }
   const std::string& path() const { return path_; }
+  bool is_file() const { return is_file_; }
 
   [[noreturn]] void fail(const toml::node& at, const std::string& what) const {
-    throw InputError(fmt::format("{}:{}: {}", path_, at.source().begin.line, what));
+    throw InputError(fmt::format("{}: {}", place(at.source()), what));
   }
   const toml::table& table(const toml::table& in, const std::string& key) const {
     const auto* node = in.get(key);
@@ -70,7 +68,22 @@ class TomlReader {
   }
 
  private:
+  TomlReader(const std::string& path, bool is_file, const std::string& text)
+      : path_(path), is_file_(is_file) {
+    if (keys_too_deep(text)) throw InputError(path_ + ": a key of hundreds of parts is no key");
+    try {
+      root_ = toml::parse(text, path_);
+    } catch (const toml::parse_error& e) {
+      throw InputError(fmt::format("{}: {}", place(e.source()), e.description()));
+    }
+  }
+  /// "FILE:7", and of a text "NAME, line 7".
+  std::string place(const toml::source_region& at) const {
+    return fmt::format("{}{}{}", path_, is_file_ ? ":" : ", line ", at.begin.line);
+  }
+
   std::string path_;
+  bool is_file_;
   toml::table root_;
 };
 

@@ -56,9 +56,10 @@ bool settled(const std::vector<Answer>& found) {
 /// Where to start from when nothing better is known, in the order to try.
 std::vector<Atlas::Entry> guesses(const Model& model, const Target& target, const Prior& prior,
                                   const std::vector<Unknown>& unknowns, const PriorTerms& terms,
-                                  TongueState& tongue, bool bilateral, int count) {
+                                  TongueState& tongue, bool bilateral, int count,
+                                  const StopAtlas& stop) {
   std::vector<Atlas::Entry> starts;
-  const Atlas& atlas = tongue.atlas.get(model, prior, bilateral, tongue.workspace);
+  const Atlas& atlas = tongue.atlas.get(model, prior, bilateral, tongue.workspace, stop);
   const Comparison comparison(model, target);
   const auto near = nearest(atlas, comparison, unknowns, terms);
   // The nearest known shape first; then the valleys that its neighbours foretell and the other
@@ -117,12 +118,17 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
   std::vector<Answer> found;
   Answer last;
   const Stopwatch watch;
+  // To make the atlas takes long.
+  const StopAtlas stop = [&] {
+    return (options.deadline_s > 0 && watch.seconds() >= options.deadline_s) ||
+           (options.cancelled && options.cancelled());
+  };
   int iterations = 0, factorizations = 0, solves = 0;
   for (int k = 0; k < most; ++k) {
     if (size_t(k) == starts.size()) {  // not before they are needed: the nearest, then all others
       const bool first = k == int(given);
       auto more = guesses(model, target, prior, unknowns, terms, tongue, bilateral,
-                          first ? 1 : most - int(given));
+                          first ? 1 : most - int(given), stop);
       starts.insert(starts.end(), more.begin() + (first ? 0 : 1), more.end());
     }
     const Atlas::Entry& start = starts[size_t(k)];
@@ -133,7 +139,7 @@ Answer from_starts(const Target& target, const Prior& prior, TongueState& tongue
     here.start_by_unknown = start.by_unknown;
     here.rough_start = start.shape.size() == 0;
     if (options.deadline_s > 0 && (here.deadline_s = options.deadline_s - watch.seconds()) <= 0) {
-      // As when the first start was all that there was time for: to make the atlas takes long.
+      // As when the first start was all that there was time for.
       last.status = InferStatus::deadline;
       if (k == 0) last.message = "the deadline passed before the first step was done";
       break;

@@ -8,37 +8,12 @@
 
 #include "inverse/recording/base/curve_pieces.hpp"
 #include "inverse/recording/base/file_axes.hpp"
-#include "inverse/recording/format_list.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/session/scan_session.hpp"
-#include "runs/frames/unused_options.hpp"
+#include "runs/frames/session_options.hpp"
 
 namespace genio {
 namespace {
-
-/// "5=tip" to what the reader takes; `expected` is what the option's values look like.
-std::map<std::string, std::string> parsed_pairs(const std::vector<std::string>& pairs,
-                                                const char* option, const char* expected) {
-  std::map<std::string, std::string> result;
-  for (const std::string& s : pairs) {
-    const auto equals = s.find('=');
-    if (equals == 0 || equals == std::string::npos || equals + 1 == s.size())
-      throw InputError(fmt::format("{} {}: expected {}", option, s, expected));
-    result[s.substr(0, equals)] = s.substr(equals + 1);
-  }
-  return result;
-}
-
-/// True where that format's files hold sensors: a palate trace beside them is of another.
-bool names_sensors(const std::string& format) {
-  return format != "auto" && format_named(format).traits.content == Content::sensors;
-}
-
-/// What is read of the files beside the target as it is of the target.
-ReadOptions beside(ReadOptions read) {
-  read.sensors.clear(), read.columns.clear(), read.points.clear(), read.spline.clear();
-  return read;
-}
 
 using Remark = std::function<void(const std::string&)>;
 
@@ -46,28 +21,17 @@ void tell(const std::string& path, const ContourFile& file, const Remark& remark
   for (const std::string& line : file.remarks) remark(fmt::format("{}: {}", path, line));
 }
 
-std::optional<SessionFile> palate_of(const MeasuredOptions& o, const ReadOptions& read,
-                                     const SessionFile& target, const Remark& remark) {
-  if (o.palate.empty()) return {};
-  ReadOptions options = beside(read);
-  options.spline = o.palate_spline;
-  if (!o.palate_sensor.empty()) options.sensors[o.palate_sensor] = "palate";
-  // A trace beside sensors is of another format, unless it is a sensor's sweep.
-  if (o.palate_sensor.empty() && names_sensors(o.read.format)) options.format = "auto";
-  if (!o.palate_format.empty()) options.format = o.palate_format;
-  if (!o.palate_units.empty()) {
-    options.units = o.palate_units;
-    if (o.palate_units != "px") options.mm_per_px = 0;
-  }
-  std::optional<SessionFile> palate = read_palate(o.palate, options, target);
-  tell(palate->path, palate->file, remark);
+std::optional<SessionFile> told_palate(const MeasuredOptions& o, const ReadOptions& read,
+                                       const SessionFile& target, const Remark& remark) {
+  std::optional<SessionFile> palate = palate_of(o, read, target);
+  if (palate) tell(palate->path, palate->file, remark);
   return palate;
 }
 
 /// The file beside the model: by its palate, else by its contours.
 AlignedRecording aligned(const Model& model, SessionFile target, const MeasuredOptions& o,
                          const ReadOptions& read, const Remark& remark) {
-  const std::optional<SessionFile> palate = palate_of(o, read, target, remark);
+  const std::optional<SessionFile> palate = told_palate(o, read, target, remark);
   SessionMarks marks;
   if (!o.bite_plane.empty()) {
     ReadOptions options = beside(read);
@@ -152,23 +116,18 @@ void tell_registration(Measured& m, const HeadPosePrior& head, ContourFile& file
 Measured as_registered(const Model& model, AlignedRecording a, const MeasuredOptions& o,
                        const Remark& remark) {
   Measured m;
-  m.registration = {.judgement = a.judgement,
-                    .units = a.file.units,
-                    .axes = a.reading.text(a.file.format.content),
-                    .points_order = points_order(a.file),
-                    .by_palate = !o.palate.empty(),
-                    .bite_plane = a.bite_plane,
-                    .head_points = a.head_points};
-  tell_registration(m, {a.registration.shift_sd.maxCoeff(), a.registration.tilt_sd}, a.file, o,
-                    remark);
-  for (const ContourFrame& frame : a.file.frames)
-    m.frames.push_back(registered(model, frame, a.registration.transform));
+  m.registration = record_of(a, !o.palate.empty());
+  tell_registration(m, head_pose_of(a.registration), a.file, o, remark);
+  m.transform = a.registration.transform;
+  m.frames = std::move(a.file.frames);
+  if (!o.as_seen)
+    for (ContourFrame& frame : m.frames) frame = registered(model, frame, *m.transform);
   return m;
 }
 
 Measured as_scan(const Model& model, SessionFile target, const MeasuredOptions& o,
                  const ReadOptions& read, const Remark& remark) {
-  const std::optional<SessionFile> palate = palate_of(o, read, target, remark);
+  const std::optional<SessionFile> palate = told_palate(o, read, target, remark);
   AlignedScan a = align_scan(model, std::move(target), palate, read);
   Measured m;
   m.registration = {.judgement = a.judgement,
@@ -178,6 +137,10 @@ Measured as_scan(const Model& model, SessionFile target, const MeasuredOptions& 
   tell_registration(m, {a.registration.shift_sd, a.registration.tilt_sd}, a.file, o, remark);
   m.frames = std::move(a.file.frames);
   return m;
+}
+
+double noise_of(const MeasuredOptions& o, const FormatTraits& format) {
+  return o.noise_mm > 0 ? 1e-3 * o.noise_mm : format.noise;
 }
 
 /// Ends the work, or only says so where the caller insists.
@@ -205,16 +168,9 @@ RegistrationFailed::RegistrationFailed(const std::string& path, RegistrationReco
 
 Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model,
                        const std::function<void(const std::string&)>& remark) {
-  if (o.target.empty()) throw InputError("--target: a contour file is needed");
-  if (!(o.noise_mm >= 0)) throw InputError("--noise-mm: must be above 0");
-  ReadOptions read = o.read;
-  read.sensors = parsed_pairs(o.sensors, "--sensors", "SENSOR=PLACE, as in 5=tip");
-  read.columns = parsed_pairs(o.columns, "--columns", "ROLE=TITLE, as in frame=uniqueframe");
-  SessionFile target = read_session_file(o.target, read);
+  const ReadOptions read = read_options_of(o);
+  SessionFile target = target_of(o, read);
   const FormatTraits format = target.file.format;
-  refuse_unused(o, format, target.file.model_frame);
-  refuse_unused_pixels(o, target.axes);
-  refuse_unused_noise(o, target.file.frames);
   // A wrong choice is said before the registration takes its time.
   const bool placed = target.file.model_frame || o.registered;
   const auto of_speaker = [&](std::vector<ContourFrame> frames) {
@@ -239,11 +195,35 @@ Measured read_measured(const MeasuredOptions& o, const std::function<const Model
                             remark);
   }
   heed(m, o, remark);
-  m.noise = o.noise_mm > 0 ? 1e-3 * o.noise_mm : format.noise;
+  m.noise = noise_of(o, format);
   m.frames = chosen_frames(std::move(m.frames), o.choice, o.target, [&](const std::string& line) {
     remark(fmt::format("{}: {}", o.target, line));
   });
   return m;
+}
+
+Unregistered read_unregistered(const MeasuredOptions& o,
+                               const std::function<void(const std::string&)>& remark) {
+  const ReadOptions read = read_options_of(o);
+  SessionFile target = target_of(o, read);
+  const FormatTraits format = target.file.format;
+  if (target.file.model_frame)
+    throw InputError(fmt::format("{}: is read as {}, which is in the model's frame already",
+                                 o.target, format.name));
+  if (format.content == Content::surface)
+    throw InputError(o.target + ": is a scan, which can be registered here alone");
+  const AxesReading axes = said_axes(target, read);
+  target.file.frames = of_one_speaker(std::move(target.file.frames), o.choice, o.target);
+  const std::optional<SessionFile> palate = told_palate(o, read, target, remark);
+  Unregistered u;
+  u.noise = noise_of(o, format);
+  if (palate) u.palate = trace_of(turned(palate->file, axes));
+  tell(o.target, target.file, remark);
+  u.frames = turned(std::move(target.file), axes).frames;
+  u.frames = chosen_frames(std::move(u.frames), o.choice, o.target, [&](const std::string& line) {
+    remark(fmt::format("{}: {}", o.target, line));
+  });
+  return u;
 }
 
 }  // namespace genio

@@ -27,6 +27,7 @@ struct MeasuredOptions {
   ReadOptions read;
   bool ignore_marks = false;  ///< leave out points of the head that the target names
   bool registered = false;    ///< already in the model's frame
+  bool as_seen = false;       ///< leave the frames where the device has them, x back and z up
   bool force = false;         ///< answer also on a registration that fails its test
   double noise_mm = 0;
 };
@@ -35,12 +36,23 @@ struct MeasuredOptions {
 std::map<HeadPoint, std::string> given_head_points(const MeasuredOptions& o);
 
 struct Measured {
-  /// Those asked for, in the model's frame; times are NaN where the file gives none.
+  /// Those asked for, in the model's frame, or as they were seen where that is asked for; times are
+  /// NaN where the file gives none.
   std::vector<ContourFrame> frames;
   double noise;  ///< [m]
   RegistrationRecord registration;
+  /// What lays the frames of a device beside the model; none where they lie there by themselves,
+  /// and of scans, which are turned in space.
+  std::optional<Similarity> transform;
   /// How well the head's place is known where no palate tells it.
   std::optional<HeadPosePrior> head_pose;
+};
+
+/// What a device saw, its axes turned so that x runs backwards and z up, for others to register.
+struct Unregistered {
+  std::vector<ContourFrame> frames;  ///< those asked for
+  std::vector<Vec2> palate;          ///< its trace, (x, z) [m]; empty where there is none
+  double noise;                      ///< [m]
 };
 
 /// A recording that cannot be laid beside the model, with the reasons and what to try.
@@ -55,5 +67,10 @@ struct RegistrationFailed : std::runtime_error {
 /// forces it, and InputError naming file, field or option.
 Measured read_measured(const MeasuredOptions& o, const std::function<const Model&()>& model,
                        const std::function<void(const std::string&)>& remark);
+
+/// Reads and picks the frames and registers nothing: format and caller say where the axes point.
+/// `remark` as above. Throws InputError naming file, field or option.
+Unregistered read_unregistered(const MeasuredOptions& o,
+                               const std::function<void(const std::string&)>& remark);
 
 }  // namespace genio

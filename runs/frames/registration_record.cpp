@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "inverse/recording/base/file_axes.hpp"
+
 namespace genio {
 
 namespace {
@@ -22,6 +24,20 @@ std::string key_of(HeadPoint point) {
 
 std::string faults_text(const Judgement& judgement) {
   return fmt::format("{}", fmt::join(judgement.faults, "; "));
+}
+
+RegistrationRecord record_of(const AlignedRecording& a, bool by_palate) {
+  return {.judgement = a.judgement,
+          .units = a.file.units,
+          .axes = a.reading.text(a.file.format.content),
+          .points_order = points_order(a.file),
+          .by_palate = by_palate,
+          .bite_plane = a.bite_plane,
+          .head_points = a.head_points};
+}
+
+HeadPosePrior head_pose_of(const Registration& registration) {
+  return {registration.shift_sd.maxCoeff(), registration.tilt_sd};
 }
 
 nlohmann::json registration_json(const RegistrationRecord& r) {

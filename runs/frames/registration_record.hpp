@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
+#include "inverse/prior/terms/head_pose_prior.hpp"
 #include "inverse/recording/session/session.hpp"
 #include "runs/results/answer_view.hpp"
 
@@ -18,6 +19,12 @@ struct RegistrationRecord {
   std::optional<double> bite_plane = {};         ///< its tilt against the model's [rad]
   std::map<HeadPoint, double> head_points = {};  ///< their distances from the model's [m]
 };
+
+/// Of a recording that was laid beside the model by its palate or without one.
+RegistrationRecord record_of(const AlignedRecording& aligned, bool by_palate);
+
+/// How well a registration knows the place of the head.
+HeadPosePrior head_pose_of(const Registration& registration);
 
 /// `scale, tilt_deg, shift_mm, palate_rms_mm, bite_plane_deg, hyoid_off_mm,
 /// short_tendon_off_mm, mandible_off_mm, from_rest_mm, off_reach_mm, behind_palate, units, axes,

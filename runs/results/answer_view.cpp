@@ -20,10 +20,11 @@ HeadPose pose_of(const std::vector<Estimate>& others) {
   return pose;
 }
 
-/// Where points were measured, once the head is where it was found to be.
-std::vector<Vec2> measured_points(const Target& target, const HeadPose& pose) {
+}  // namespace
+
+std::vector<Vec2> measured_points(const Target& target, const std::vector<Estimate>& others) {
   const Vec2 middle = target.middle();
-  const MovedTarget moved(pose, middle);
+  const MovedTarget moved(pose_of(others), middle);
   std::vector<Vec2> points;
   for (const auto& p : target.curve) points.push_back(moved(p.position));
   for (const auto& p : target.flesh) points.push_back(moved(Vec2(p.position[0], p.position[2])));
@@ -32,8 +33,6 @@ std::vector<Vec2> measured_points(const Target& target, const HeadPose& pose) {
       points.push_back(moved(Vec2(p.position[0], p.position[2])));
   return points;
 }
-
-}  // namespace
 
 AnswerView view_of(const Model& model, const Target& target, const Answer& a) {
   AnswerView v;
@@ -45,7 +44,7 @@ AnswerView view_of(const Model& model, const Target& target, const Answer& a) {
   v.outliers = a.residuals.outliers;
   v.rms_mm = 1e3 * a.rms, v.max_mm = 1e3 * a.max, v.chi2_per_dof = a.chi2_per_dof;
   v.wall_s = a.wall_s, v.iterations = a.iterations, v.factorizations = a.factorizations;
-  v.measured = measured_points(target, pose_of(a.others));
+  v.measured = measured_points(target, a.others);
   if (a.shape.size() > 0) v.predicted = TongueLine(model).sample(a.shape, 120);
   return v;
 }

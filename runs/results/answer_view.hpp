@@ -29,6 +29,10 @@ struct AnswerView {
   std::vector<Vec2> measured, predicted;
 };
 
+/// Where points were measured, once the head is where `others` say that it was, (x, z) [m]: those
+/// near the midsagittal plane.
+std::vector<Vec2> measured_points(const Target& target, const std::vector<Estimate>& others);
+
 /// All but what is said of the frame itself.
 AnswerView view_of(const Model& model, const Target& target, const Answer& answer);
 

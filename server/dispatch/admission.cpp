@@ -11,7 +11,7 @@
 namespace genio {
 namespace {
 
-constexpr size_t longest_id = 200, longest_kind = 64;
+constexpr size_t longest_kind = 64;
 constexpr int most_starts = 1000, most_priority = 10;
 constexpr size_t before_id = 16;  // bytes: the fingerprint and the time
 

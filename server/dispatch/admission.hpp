@@ -11,6 +11,8 @@ namespace genio {
 /// Where replies go to that nobody can be told of.
 inline constexpr const char* unknown_client = "undecodable";
 
+inline constexpr size_t longest_id = 200;
+
 /// True for 1 to 40 letters, digits, '_' or '-'.
 bool usable_client(const std::string& name);
 

@@ -1,6 +1,7 @@
 #include "server/dispatch/dispatcher.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,53 +19,61 @@ constexpr double newest_counts = 0.2;  // of the usual time of a request
 
 }  // namespace
 
-Dispatcher::Dispatcher(const DispatchLimits& limits, std::function<void()> wake,
+Dispatcher::Dispatcher(const DispatchLimits& limits, std::vector<ModelIdentity> models,
                        JournalLookup journal)
-    : limits_(limits), wake_(std::move(wake)), journal_(std::move(journal)) {}
-
-void Dispatcher::send(OutgoingMessage message) {
-  outgoing_.messages.push_back(std::move(message));
-  if (wake_) wake_();
-}
-
-void Dispatcher::keep(Record record) {
-  if (!journal_) return;
-  outgoing_.records.push_back(std::move(record));
-  if (wake_) wake_();
-}
-
-void Dispatcher::reply_to(const std::string& client, command_reply_t reply) {
-  reply.utime = now_us();
-  send({"GENIO_REPLY." + client, encode(reply)});
-  ++replied_;
-}
+    : limits_(limits),
+      models_(std::move(models)),
+      journal_(std::move(journal)),
+      outbox_(bool(journal_)),
+      states_(limits.streams, limits.streams_bytes),
+      remembered_(limits.remembered, limits.remembered_bytes) {}
 
 void Dispatcher::refuse(const std::string& client, const std::string& id, const std::string& reason,
                         double retry_after_s) {
-  ++refused_;
-  reply_to(client, reply_without_answer(id, "refused", reason, retry_after_s));
+  ++tally_.refused, ++tally_.replied;
+  command_reply_t reply = reply_without_answer(id, "refused", reason, retry_after_s);
+  outbox_.reply(client, encode(reply));
+  outbox_.note(client, std::move(reply));
+}
+
+void Dispatcher::drop_unreadable(const char* channel, size_t size, const std::string& reason) {
+  ++tally_.unreadable;
+  outbox_.note_drop(channel, size, reason);
 }
 
 double Dispatcher::seconds_until_free() const {
-  return std::max(1.0, std::ceil(usual_seconds_ * double(waiting_.size() + !running_.empty())));
+  const double rounds = double(line_.size() + running_.size()) / double(at_once_);
+  return std::max(1.0, std::ceil(usual_seconds_ * rounds));
+}
+
+std::optional<size_t> Dispatcher::model_named(const std::string& name) const {
+  for (size_t k = 0; k < models_.size(); ++k)
+    if (name.empty() || models_[k].name == name) return k;
+  return std::nullopt;
 }
 
 void Dispatcher::receive_request(const void* data, size_t size, int64_t now) {
   std::string why;
   auto request = decode_checked<shape_request_t>(data, size, why);
-  const std::lock_guard lock(mutex_);
-  ++received_;
+  ++tally_.received;
   if (!request) {
+    ++tally_.unreadable;
     const auto sender = sender_of(data, size);
     const std::string client = sender ? sender->client : unknown_client;
     const std::string id = sender ? sender->id : "";
-    for (auto& old : replies_of_earlier_versions(data, size, id))
-      send({"GENIO_REPLY." + client, std::move(old)});
+    for (auto& old : replies_of_earlier_versions(data, size, id)) outbox_.reply(client, old);
     return refuse(client, id, "request cannot be read: " + why);
   }
-  if (const std::string fault = fault_of(*request); !fault.empty())
+  std::string fault = fault_of(*request);
+  if (fault.empty() && !model_named(request->model)) {
+    std::vector<std::string> names;
+    for (const ModelIdentity& m : models_) names.push_back(m.name);
+    fault = fmt::format("model: '{}' is asked for; this server has {}", request->model,
+                        fmt::join(names, ", "));
+  }
+  if (!fault.empty())
     return refuse(usable_client(request->client) ? request->client : unknown_client,
-                  request->id.substr(0, 200), fault);
+                  request->id.substr(0, longest_id), fault);
   const auto* bytes = static_cast<const uint8_t*>(data);
   accept(std::move(*request), {bytes, bytes + size}, now);
 }
@@ -72,224 +81,263 @@ void Dispatcher::receive_request(const void* data, size_t size, int64_t now) {
 void Dispatcher::ask_again(const shape_request_t& request, Entry& entry) {
   const std::string& client = request.client;
   if (digest_of(request) != entry.digest) return refuse(client, request.id, id_is_taken);
-  if (entry.state == State::answered) return reply_to(client, *entry.best);
-  if (std::find(entry.clients.begin(), entry.clients.end(), client) == entry.clients.end())
-    entry.clients.push_back(client);
+  if (entry.state == State::answered) {
+    ++tally_.replied;
+    return outbox_.reply(client, entry.reply);
+  }
+  if (!entry.asked_by(client)) entry.clients.push_back(client);
+}
+
+bool Dispatcher::answered_before(const shape_request_t& request) {
+  const auto known = journal_ ? journal_.find(request.id) : std::nullopt;
+  if (!known) return false;
+  if (known->digest != digest_of(request))
+    return refuse(request.client, request.id, id_is_taken), true;
+  // What another process accepted meanwhile, or before, and nobody answered.
+  if (known->reply.empty()) return false;
+  std::string why;
+  if (!decode_checked<command_reply_t>(known->reply.data(), known->reply.size(), why))
+    return refuse(request.client, request.id,
+                  "it was answered before, and its reply is not of this version; choose a new id"),
+           true;
+  ++tally_.replied;
+  outbox_.reply(request.client, known->reply);
+  return true;
+}
+
+std::string Dispatcher::why_full(size_t bytes) const {
+  if (closed_) return "the server stops; ask again";
+  if (int(line_.size()) < limits_.waiting && line_.bytes() + bytes <= limits_.waiting_bytes)
+    return "";
+  return fmt::format("the queue is full ({} requests wait); ask again in {:.0f} s", line_.size(),
+                     seconds_until_free());
 }
 
 void Dispatcher::accept(shape_request_t request, std::vector<uint8_t> bytes, int64_t now) {
   if (const auto it = entries_.find(request.id); it != entries_.end())
     return ask_again(request, it->second);
-  if (const auto known = journal_ ? journal_.find(request.id) : std::nullopt) {
-    std::string why;
-    const auto reply =
-        decode_checked<command_reply_t>(known->reply.data(), known->reply.size(), why);
-    if (known->digest != digest_of(request)) return refuse(request.client, request.id, id_is_taken);
-    if (reply) return reply_to(request.client, *reply);
-    return refuse(request.client, request.id,
-                  "it was answered before, and its reply is not of this version; choose a new id");
-  }
-  if (closed_)
-    return refuse(request.client, request.id, "the server stops; ask again", seconds_until_free());
-  if (int(waiting_.size()) >= limits_.waiting ||
-      waiting_bytes_ + bytes.size() > limits_.waiting_bytes)
-    return refuse(request.client, request.id,
-                  fmt::format("the queue is full ({} requests wait); ask again in {:.0f} s",
-                              waiting_.size(), seconds_until_free()),
-                  seconds_until_free());
-  AcceptedRecord record{request.id, request.client, digest_of(request), std::move(bytes), now, 0};
+  if (answered_before(request)) return;
+  if (const std::string why = why_full(bytes.size()); !why.empty())
+    return refuse(request.client, request.id, why, seconds_until_free());
+  AcceptedRecord record{request.id, request.client, digest_of(request), std::move(bytes), now,
+                        0,          request.model,  request.stream,     request.priority};
   if (request.deadline_s > 0)
     record.deadline = now + int64_t(std::min(1e6 * request.deadline_s, 1e15));
   enqueue(std::move(request), record);
-  send({"GENIO_PROGRESS." + record.client, encode(progress_of(record.id, "queued", 0, 0)),
-        record.id});
-  keep(std::move(record));
+  outbox_.progress(record.client, progress_of(record.id, "queued", 0, 0), record.id);
+  outbox_.keep(std::move(record));
 }
 
-void Dispatcher::enqueue(shape_request_t request, const AcceptedRecord& record) {
-  Entry entry;
+Dispatcher::Entry& Dispatcher::enqueue(shape_request_t request, const AcceptedRecord& record) {
+  Entry& entry = entries_[record.id] = {};
   entry.request = std::move(request);
+  entry.model = model_named(entry.request.model).value_or(0);
   entry.digest = record.digest, entry.clients = {record.client};
-  entry.bytes = record.request.size(), entry.deadline = record.deadline;
-  entries_[record.id] = std::move(entry);
-  waiting_.push_back(record.id), waiting_bytes_ += record.request.size();
-  changed_.notify_one();
+  entry.bytes = record.request.size();
+  entry.accepted = record.accepted, entry.deadline = record.deadline;
+  if (entry.deadline > 0) deadlines_.insert({entry.deadline, record.id});
+  wait_in_line(entry);
+  return entry;
 }
 
-void Dispatcher::resume(const AcceptedRecord& record, int tries) {
+void Dispatcher::wait_in_line(Entry& entry) {
+  entry.state = State::waiting;
+  line_.add({entry.request.id, entry.request.priority, stream_of(entry, models_[entry.model]),
+             entry.bytes, entry.number});
+}
+
+void Dispatcher::resume(const AcceptedRecord& record, int tries, int64_t now) {
   std::string why;
   auto request = decode_checked<shape_request_t>(record.request.data(), record.request.size(), why);
-  const std::lock_guard lock(mutex_);
+  if (request && !model_named(request->model))
+    why = fmt::format("no model '{}' is served any more", request->model), request.reset();
   const bool readable = request.has_value();
   if (!readable) request.emplace(), request->id = record.id;
-  enqueue(std::move(*request), record);
+  Entry& entry = enqueue(std::move(*request), record);
+  entry.resumed = true, entry.tries = tries;
   if (readable && tries < most_tries) return;
-  take_from_queue(record.id);
-  answer(entries_.at(record.id),
-         reply_without_answer(record.id, "failed",
-                              readable
-                                  ? fmt::format("its computation ended the server {} times", tries)
-                                  : "it is not of this version: " + why));
+  line_.remove(record.id);
+  answer(
+      entry,
+      reply_without_answer(record.id, "failed",
+                           readable ? fmt::format("its computation ended a worker {} times", tries)
+                                    : "it cannot be computed by this server: " + why),
+      now);
+}
+
+void Dispatcher::forget(const std::string& id) {
+  const auto it = entries_.find(id);
+  if (it == entries_.end()) return;
+  deadlines_.erase({it->second.deadline, id});
+  entries_.erase(it);
 }
 
 void Dispatcher::drop(const std::string& id, const std::string& reason) {
-  const std::lock_guard lock(mutex_);
   const auto it = entries_.find(id);
-  if (it == entries_.end()) return;
+  if (it == entries_.end() || it->second.state == State::answered) return;
   for (const auto& client : it->second.clients) refuse(client, id, reason, 1);
-  if (it->second.state == State::waiting) take_from_queue(id);
-  if (it->second.state != State::answered) entries_.erase(id);
+  line_.remove(id);
+  if (running_.contains(id)) unwanted_.push_back(id);
+  forget(id);
 }
 
 void Dispatcher::receive_ack(const void* data, size_t size) {
   std::string why;
   const auto ack = decode_checked<ack_t>(data, size, why);
-  const std::lock_guard lock(mutex_);
-  if (ack) keep(DeliveredRecord{ack->id});
+  if (!ack) return drop_unreadable("GENIO_ACK", size, why);
+  const auto it = entries_.find(ack->id);
+  if (it != entries_.end() && !it->second.asked_by(ack->client)) return;
+  outbox_.keep(DeliveredRecord{ack->id});
 }
 
-void Dispatcher::take_from_queue(const std::string& id) {
-  waiting_.erase(std::find(waiting_.begin(), waiting_.end(), id));
-  waiting_bytes_ -= entries_.at(id).bytes;
-}
-
-void Dispatcher::answer(Entry& entry, command_reply_t reply) {
+void Dispatcher::answer(Entry& entry, command_reply_t reply, int64_t now) {
+  stamp(entry, models_[entry.model], now, reply);
+  entry.reply = encode(reply);
   // Of who asked in an earlier process one is known; the others ask again.
-  for (const auto& client : entry.clients) reply_to(client, reply);
-  if (journal_) keep(AnsweredRecord{entry.request.id, reply.status, encode(reply)});
+  for (const auto& client : entry.clients) outbox_.reply(client, entry.reply);
+  tally_.replied += int64_t(entry.clients.size());
+  tally_.past_deadline += reply.status == "deadline";
+  tally_.cancelled += reply.status == "cancelled";
+  if (!entry.resumed) tally_.add_latency(1e-6 * double(now - entry.accepted));
+  outbox_.keep(AnsweredRecord{reply.id, reply.status, entry.reply});
+  deadlines_.erase({entry.deadline, reply.id});
   // Repeated questions need the digest and the reply alone.
-  const std::string id = entry.request.id;
-  entry.request = {}, entry.request.id = id;
-  entry.bytes = size_t(reply.getEncodedSize());
-  entry.best = std::move(reply), entry.state = State::answered;
-  answered_.push_back(id), answered_bytes_ += entry.bytes;
-  forget_oldest();
+  entry.request = {}, entry.request.id = reply.id, entry.best.reset();
+  entry.bytes = entry.reply.size(), entry.state = State::answered;
+  for (const std::string& old : remembered_.add(reply.id, entry.bytes)) forget(old);
+  outbox_.note(entry.clients.front(), std::move(reply));
 }
 
-void Dispatcher::forget_oldest() {
-  while (int(answered_.size()) > limits_.remembered ||
-         (answered_.size() > 1 && answered_bytes_ > limits_.remembered_bytes)) {
-    // What was answered at its deadline may still be computed.
-    const auto it = entries_.find(answered_.front());
-    answered_bytes_ -= it->second.bytes;
-    entries_.erase(it), answered_.pop_front();
-  }
-}
-
-void Dispatcher::receive_cancel(const void* data, size_t size) {
+void Dispatcher::receive_cancel(const void* data, size_t size, int64_t now) {
   std::string why;
   const auto cancel = decode_checked<cancel_t>(data, size, why);
-  const std::lock_guard lock(mutex_);
-  if (!cancel || !usable_client(cancel->client)) return;
+  if (cancel && !usable_client(cancel->client)) why = "the client's name cannot be used";
+  if (!why.empty()) return drop_unreadable("GENIO_CANCEL", size, why);
   const auto it = entries_.find(cancel->id);
-  if (it == entries_.end() || it->second.state == State::answered)
-    return refuse(cancel->client, cancel->id.substr(0, 200), "no request of that id waits or runs");
+  const bool answered = it != entries_.end() && it->second.state == State::answered;
+  if (answered && it->second.cancelled && cancel->client == it->second.clients.front()) {
+    // It may have missed the reply to its first try.
+    ++tally_.replied;
+    return outbox_.reply(cancel->client, it->second.reply);
+  }
+  if (it == entries_.end() || answered)
+    return refuse(cancel->client, cancel->id.substr(0, longest_id),
+                  "no request of that id waits or runs");
   Entry& entry = it->second;
   if (cancel->client != entry.clients.front())
     return refuse(cancel->client, cancel->id, "only the client that asked may withdraw a request");
+  if (!entry.cancelled && entry.state == State::running) unwanted_.push_back(cancel->id);
   entry.cancelled = true;
-  if (entry.state != State::waiting) return;
-  take_from_queue(cancel->id);
-  answer(entry, reply_without_answer(cancel->id, "cancelled",
-                                     "cancelled by the requester before its turn came"));
+  if (!line_.remove(cancel->id)) return;
+  answer(entry,
+         reply_without_answer(cancel->id, "cancelled",
+                              "cancelled by the requester before its turn came"),
+         now);
+}
+
+int64_t Dispatcher::next_deadline() const {
+  return deadlines_.empty() ? 0 : deadlines_.begin()->first - before_deadline;
 }
 
 void Dispatcher::pass_deadlines(int64_t now) {
-  const std::lock_guard lock(mutex_);
-  std::vector<std::string> passed;
-  const auto look = [&](const std::string& id) {
-    const auto it = entries_.find(id);
-    if (it != entries_.end() && it->second.state != State::answered && it->second.deadline > 0 &&
-        now >= it->second.deadline - before_deadline)
-      passed.push_back(id);
-  };
-  for (const std::string& id : waiting_) look(id);
-  if (!running_.empty()) look(running_);
-  for (const std::string& id : passed) {
+  while (!deadlines_.empty() && now >= next_deadline()) {
+    const std::string id = deadlines_.begin()->second;
     Entry& entry = entries_.at(id);
-    const bool waited = entry.state == State::waiting;
-    if (waited) take_from_queue(id);
-    answer(entry, at_deadline(id, entry.best, waited));
+    if (running_.contains(id)) unwanted_.push_back(id);
+    const bool waited = line_.remove(id);
+    answer(entry, at_deadline(id, entry.best, waited), now);
   }
 }
 
-Outgoing Dispatcher::take_outgoing() {
-  const std::lock_guard lock(mutex_);
-  return std::exchange(outgoing_, Outgoing{});
-}
-
-server_status_t Dispatcher::counts() const {
-  const std::lock_guard lock(mutex_);
-  server_status_t s{};
-  s.queued = int(waiting_.size()), s.running = !running_.empty();
-  s.received = received_, s.replied = replied_, s.refused = refused_;
-  return s;
-}
-
-void Dispatcher::close() {
-  {
-    const std::lock_guard lock(mutex_);
-    closed_ = true;
-  }
-  changed_.notify_all();
-}
-
-void Dispatcher::refuse_waiting() {
-  const std::lock_guard lock(mutex_);
-  if (journal_) return;
-  for (const std::string& id : waiting_)
-    for (const auto& client : entries_.at(id).clients)
-      refuse(client, id, "the server stopped; ask again", 1);
-  for (const std::string& id : waiting_) entries_.erase(id);
-  waiting_.clear(), waiting_bytes_ = 0;
-}
-
-std::optional<Assignment> Dispatcher::next() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return closed_ || !waiting_.empty(); });
+std::optional<Assignment> Dispatcher::next(int64_t now) {
   if (closed_) return std::nullopt;
-  const std::string id = waiting_.front();
-  take_from_queue(id);
-  Entry& entry = entries_.at(id);
-  entry.state = State::running, running_ = id;
-  keep(TriedRecord{id});
-  Assignment a{entry.request, 0};
-  if (entry.deadline > 0) a.deadline_s = std::max(1e-6, 1e-6 * double(entry.deadline - now_us()));
+  const auto chosen = line_.next(busy_);
+  if (!chosen) return std::nullopt;
+  Entry& entry = entries_.at(chosen->id);
+  entry.state = State::running, entry.started = now, entry.number = chosen->number;
+  running_[chosen->id] = chosen->stream;
+  if (!chosen->stream.empty()) busy_.insert(chosen->stream);
+  at_once_ = std::max(at_once_, running_.size());
+  Assignment a{chosen->id, entry.model, encode(entry.request), 0, states_.find(chosen->stream)};
+  if (entry.deadline > 0) a.deadline_s = std::max(1e-6, 1e-6 * double(entry.deadline - now));
   return a;
 }
 
-bool Dispatcher::withdrawn(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
-  const auto it = entries_.find(id);
-  return closed_ || it == entries_.end() || it->second.cancelled ||
-         it->second.state == State::answered;
-}
+std::vector<std::string> Dispatcher::take_unwanted() { return std::exchange(unwanted_, {}); }
 
-void Dispatcher::report_progress(const std::string& id, int iteration, double rms) {
-  const auto bytes = encode(progress_of(id, "running", iteration, rms));
-  const std::lock_guard lock(mutex_);
-  if (const auto it = entries_.find(id); it != entries_.end() && it->second.state == State::running)
-    for (const auto& client : it->second.clients) send({"GENIO_PROGRESS." + client, bytes});
+void Dispatcher::report_progress(const std::string& id, int iteration, double rms_mm) {
+  const auto it = entries_.find(id);
+  if (it == entries_.end() || it->second.state != State::running) return;
+  for (const auto& client : it->second.clients)
+    outbox_.progress(client, progress_of(id, "running", iteration, 1e-3 * rms_mm));
 }
 
 void Dispatcher::keep_best(const std::string& id, command_reply_t reply) {
-  const std::lock_guard lock(mutex_);
   const auto it = entries_.find(id);
   if (it == entries_.end() || it->second.state != State::running) return;
   auto& best = it->second.best;
   if (!best || says_more(reply, *best)) best = std::move(reply);
 }
 
-void Dispatcher::finish(const std::string& id, const command_reply_t& reply, double seconds) {
-  const std::lock_guard lock(mutex_);
-  running_.clear();
-  usual_seconds_ += newest_counts * (seconds - usual_seconds_);
+void Dispatcher::finish(const std::string& id, command_reply_t reply, std::vector<uint8_t> state,
+                        int64_t now) {
+  const auto run = running_.extract(id);
+  if (run.empty()) return;
+  if (!run.mapped().empty()) {
+    busy_.erase(run.mapped());
+    if (!state.empty()) states_.keep(run.mapped(), std::move(state));
+  }
+  ++tally_.computed, tally_.failed += reply.status == "failed";
   const auto it = entries_.find(id);
   if (it == entries_.end() || it->second.state != State::running) return;
+  Entry& entry = it->second;
+  usual_seconds_ += newest_counts * (1e-6 * double(now - entry.started) - usual_seconds_);
   // What is cut short by a stop in good order is taken up again from the journal.
-  if (closed_ && journal_ && reply.status == "cancelled" && !it->second.cancelled)
-    keep(UntriedRecord{id});
-  else answer(it->second, reply);
+  if (closed_ && journal_ && reply.status == "cancelled" && !entry.cancelled) return;
+  answer(entry, std::move(reply), now);
+}
+
+void Dispatcher::lost(const std::string& id, const std::string& reason, int64_t now) {
+  const auto run = running_.extract(id);
+  if (run.empty()) return;
+  busy_.erase(run.mapped());
+  const auto it = entries_.find(id);
+  if (it == entries_.end() || it->second.state != State::running) return;
+  Entry& entry = it->second;
+  ++entry.tries;
+  outbox_.keep(LostRecord{id});
+  if (entry.cancelled)
+    return answer(entry, reply_without_answer(id, "cancelled", "cancelled by the requester"), now);
+  if (entry.tries < most_tries) return wait_in_line(entry);
+  ++tally_.computed, ++tally_.failed;
+  answer(entry,
+         reply_without_answer(id, "failed",
+                              fmt::format("its computation ended a worker {} times, lastly as {}",
+                                          entry.tries, reason)),
+         now);
+}
+
+void Dispatcher::tell(server_status_t& s) const {
+  for (const ModelIdentity& m : models_) s.model.push_back(m.name), s.model_hash.push_back(m.hash);
+  s.model_count = int(s.model.size());
+  s.queued = int(line_.size()), s.running = int(running_.size());
+  tally_.tell(s);
+}
+
+void Dispatcher::close() {
+  closed_ = true;
+  if (journal_) return;
+  for (const auto& [id, stream] : running_) unwanted_.push_back(id);
+}
+
+size_t Dispatcher::refuse_rest() {
+  size_t refused = 0;
+  if (journal_) return refused;
+  std::vector<std::string> rest;
+  for (const auto& [id, entry] : entries_)
+    if (entry.state != State::answered) rest.push_back(id);
+  for (const std::string& id : rest) drop(id, "the server stopped; ask again"), ++refused;
+  return refused;
 }
 
 }  // namespace genio

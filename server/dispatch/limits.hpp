@@ -9,6 +9,8 @@ struct DispatchLimits {
   size_t waiting_bytes = 64u << 20;     ///< of them all, as they came
   int remembered = 4096;                ///< replies kept for repeated ids
   size_t remembered_bytes = 64u << 20;  ///< of them all
+  size_t streams = 1024;                ///< whose last shape is kept for their next frame
+  size_t streams_bytes = 64u << 20;     ///< of them all
 };
 
 }  // namespace genio

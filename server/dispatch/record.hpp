@@ -13,13 +13,11 @@ struct AcceptedRecord {
   std::string digest;            ///< see digest_of()
   std::vector<uint8_t> request;  ///< as it came
   int64_t accepted, deadline;    ///< [us since 1970]; 0: no deadline
+  std::string model = {}, stream = {};
+  int priority = 0;
 };
-/// Its computation begins.
-struct TriedRecord {
-  std::string id;
-};
-/// It ended without an answer, as the server stops in good order.
-struct UntriedRecord {
+/// Its computation ended with the worker, and no answer.
+struct LostRecord {
   std::string id;
 };
 struct AnsweredRecord {
@@ -30,8 +28,7 @@ struct AnsweredRecord {
 struct DeliveredRecord {
   std::string id;
 };
-using Record =
-    std::variant<AcceptedRecord, TriedRecord, UntriedRecord, AnsweredRecord, DeliveredRecord>;
+using Record = std::variant<AcceptedRecord, LostRecord, AnsweredRecord, DeliveredRecord>;
 
 /// What is kept of an id that was used before.
 struct KnownRequest {

@@ -70,7 +70,11 @@ command_reply_t reply_without_answer(const std::string& id, const char* status,
                                      const std::string& reason, double retry_after_s) {
   command_reply_t reply{};
   reply.id = id, reply.status = status, reply.verdict = "none", reply.message = reason;
-  reply.mirrored = std::nan(""), reply.retry_after_s = retry_after_s;
+  reply.utime = now_us(), reply.version = GENIO_VERSION, reply.retry_after_s = retry_after_s;
+  for (double* unknown :
+       {&reply.mirrored, &reply.time_s, &reply.scale, &reply.tilt_deg, &reply.shift_x_mm,
+        &reply.shift_z_mm, &reply.shift_sd_mm, &reply.tilt_sd_deg})
+    *unknown = std::nan("");
   return reply;
 }
 

@@ -1,29 +1,9 @@
 #include "server/hub/hub.hpp"
 
-#include <csignal>
-
+#include "server/base/signals_blocked.hpp"
 #include "server/hub/loop.hpp"
 
 namespace genio {
-namespace {
-
-/// While it lives, threads that are started get no signals: those are for the main thread.
-class SignalsBlocked {
- public:
-  SignalsBlocked() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsBlocked(const SignalsBlocked&) = delete;
-  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-
- private:
-  sigset_t before_;
-};
-
-}  // namespace
 
 Hub::Hub(uint16_t port, const HubLimits& limits)
     : loop_(std::make_unique<HubLoop>(port, limits)), port_(loop_->port()) {

@@ -34,7 +34,7 @@ struct JournalEntry {
   // What the journal adds:
   int64_t number = 0;  ///< entries are numbered as they are accepted; a number is given once
   JournalState state = JournalState::accepted;
-  int tries = 0;  ///< begun so far
+  int tries = 0;  ///< that ended without an answer
   int64_t answered_us = 0, delivered_us = 0;
   std::string status;          ///< of the reply
   std::vector<uint8_t> reply;  ///< empty where the entry was read without it

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "forward/base/text_file.hpp"
+#include "server/base/safe_text.hpp"
 #include "server/journal/journal_text.hpp"
 
 namespace genio {

@@ -201,19 +201,6 @@ int Journal::tried(const std::string& id) {
   });
 }
 
-void Journal::untried(const std::string& id) {
-  State& s = *state_;
-  s.attempt([&] {
-    s.look();
-    const auto entry = s.table.find(id);
-    if (!entry || entry->state != JournalState::accepted || entry->tries == 0) return;
-    s.begin();
-    Change change = change_of_tries(id, entry->tries - 1);
-    change(s.table);
-    s.changes.push_back(std::move(change));
-  });
-}
-
 bool Journal::answered(const std::string& id, std::vector<uint8_t> reply, const std::string& status,
                        int64_t at_us) {
   State& s = *state_;

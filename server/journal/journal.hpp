@@ -35,11 +35,11 @@ enum class Acceptance {
 
 /// Requests with their states, for the one process that owns the file; genio journal may read and
 /// prune it meanwhile. Changes are seen by this object at once, and stand on disk once sync()
-/// returned: only then may a client hear of them, or a try begin.
+/// returned: only then may a client hear of them.
 ///
 /// Every function but the constructor throws JournalError where SQLite fails, and where another
 /// program writes for longer than five seconds. Then what was accepted since the last sync() is
-/// forgotten, with what the call itself was to accept or to try. Replies, deliveries and earlier
+/// forgotten, with what the call itself was to accept or to count. Replies, deliveries and earlier
 /// tries are kept in memory and written with the next change or sync(): a full disk costs no
 /// answer. Where find() or unanswered() meet a damaged entry, nothing is forgotten.
 ///
@@ -57,12 +57,9 @@ class Journal {
 
   /// Adds a request, of which the first block of members counts, unless the id is known.
   Acceptance accept(const JournalEntry& entry);
-  /// Counts a try that is to begin after the next sync(), and gives their number. 0 where no such
-  /// request waits for an answer.
+  /// Counts a try that ended without an answer, and gives their number. 0 where no such request
+  /// waits for an answer.
   int tried(const std::string& id);
-  /// Takes a try back which ended without an answer though nothing crashed, as when the server is
-  /// stopped.
-  void untried(const std::string& id);
   /// Keeps the reply; `status` as in the reply, time [us since 1970]. False where no such request
   /// waits for an answer: a second reply does not replace the first.
   bool answered(const std::string& id, std::vector<uint8_t> reply, const std::string& status,

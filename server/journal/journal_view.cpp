@@ -30,6 +30,14 @@ JournalCounts JournalView::counts() const try {
   throw state_->refusal(e);
 }
 
+std::optional<JournalEntry> JournalView::find(const std::string& id) const try {
+  auto entry = state_->table.find(id);
+  if (entry && !state_->table.load(*entry)) return std::nullopt;
+  return entry;
+} catch (const StorageError& e) {
+  throw state_->refusal(e);
+}
+
 void JournalView::each(Blobs blobs, const Visit& visit) const try {
   constexpr int at_once =
       500;  // entries without blobs; the file is not held while they are visited

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/journal/entry.hpp"
@@ -17,6 +18,9 @@ class JournalView {
 
   /// Throws InputError where the file is damaged.
   JournalCounts counts() const;
+
+  /// Nothing where the id is unknown. Throws InputError where the entry is damaged.
+  std::optional<JournalEntry> find(const std::string& id) const;
 
   /// `damage` is empty, or says what is wrong with an entry that differs from its checksums.
   using Visit = std::function<void(const JournalEntry& entry, const std::string& damage)>;

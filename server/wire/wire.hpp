@@ -10,6 +10,8 @@
 #include "genio/ack_t.hpp"
 #include "genio/cancel_t.hpp"
 #include "genio/command_reply_t.hpp"
+#include "genio/part_ask_t.hpp"
+#include "genio/part_t.hpp"
 #include "genio/progress_t.hpp"
 #include "genio/sealed_t.hpp"
 #include "genio/server_status_t.hpp"
@@ -28,12 +30,12 @@ template <class T>
 struct WireLayout;
 template <>
 struct WireLayout<shape_request_t> {
-  static constexpr const char* fields = "lsssssdissddddnDDnDDDDSddbi";
+  static constexpr const char* fields = "lsssssdissddddddnDDnDDDDSddbi";
 };
 template <>
 struct WireLayout<command_reply_t> {
   static constexpr const char* fields =
-      "lssssssdssdsnSDDDDDDDDDdinSDDDDnISDnSnSDDDdddiiddisddddnDDdnDDnD";
+      "lssssssdssdsnSDDDDDDDDDdinSSDDDDnISDnSnSDDDdddiiddisddddddnDDdnDDnD";
 };
 template <>
 struct WireLayout<progress_t> {
@@ -50,6 +52,14 @@ struct WireLayout<ack_t> {
 template <>
 struct WireLayout<server_status_t> {
   static constexpr const char* fields = "lsnSSiiillllllllllllllddddd";
+};
+template <>
+struct WireLayout<part_t> {
+  static constexpr const char* fields = "lssiimB";
+};
+template <>
+struct WireLayout<part_ask_t> {
+  static constexpr const char* fields = "lsnI";
 };
 template <>
 struct WireLayout<sealed_t> {

@@ -1,5 +1,6 @@
 // Recordings of all formats, and what is read beside them.
 
+#include "forward/base/input_file.hpp"
 #include "inverse/prior/prior_file.hpp"
 #include "inverse/recording/contour_file.hpp"
 #include "inverse/recording/format_list.hpp"
@@ -55,9 +56,22 @@ FuzzReader prior_reader() {
           {"effort_sd = 0.3\nsymmetry_sd = 0.05\nemg = \"emg.csv\"\n[cocontraction]\nmean = 0.1\n"
            "sd = 0.05\n[fixed_N]\nGGP = 1.5\n[parameter.\"jaw_opening.angle\"]\nmean = 4\nsd = 1\n"
            "[head_pose]\nshift_sd_mm = 1\nturn_sd_deg = 2\n",
-           "smoothness_sd = 0.2\n"},
+           "smoothness_sd = 0.2\n[emg.GGP]\nmean = 0.2\nsd = 0.05\n"},
           [](const std::string& path) { read_prior(path); },
           {{"emg.csv", "muscle,mean,sd\nGGP,0.2,0.05\n"}}};
+}
+
+/// As it comes from the network, and as it goes there.
+FuzzReader sent_prior_reader() {
+  return {"sent_prior",
+          "sent.toml",
+          {"effort_sd = 0.3\nmuscles_rest = false\n[emg]\nGGP = {mean = 0.2, sd = 0.05}\n"
+           "[fixed_N]\nMH = 0\n",
+           "[head_pose]\nshift_sd_mm = 1\n"},
+          [](const std::string& path) {
+            prior_of_text("prior", prior_text(path));
+            prior_of_text("prior", read_file(path));
+          }};
 }
 
 FuzzReader emg_reader() {
@@ -70,7 +84,8 @@ FuzzReader emg_reader() {
 }  // namespace
 
 std::vector<FuzzReader> contour_readers() {
-  std::vector<FuzzReader> readers = {textgrid_reader(), prior_reader(), emg_reader()};
+  std::vector<FuzzReader> readers = {textgrid_reader(), prior_reader(), sent_prior_reader(),
+                                     emg_reader()};
   for (const ContourFormat& format : contour_formats()) readers.push_back(contour_reader(format));
   return readers;
 }

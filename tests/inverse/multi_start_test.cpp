@@ -161,5 +161,27 @@ TEST_F(MultiStart, EstimatesHoldMixedOptimaByTheirWeights) {
   }
 }
 
+TEST_F(MultiStart, AHeadPoseTakesNoNewAtlas) {
+  AtlasCache cache;
+  cache.get(m, Prior{}, true, ws);
+  Prior posed;
+  posed.head_pose = HeadPosePrior{1e-3, 0.02};
+  const int before = ws.cholesky.factorizations();
+  const Atlas& atlas = cache.get(m, posed, true, ws);
+  EXPECT_EQ(ws.cholesky.factorizations(), before);
+  const Atlas own = make_atlas(m, posed, true, ws);
+  EXPECT_EQ(atlas.names, own.names);
+  EXPECT_EQ(atlas.lower, own.lower);
+  EXPECT_EQ(atlas.upper, own.upper);
+  ASSERT_EQ(atlas.entries.size(), own.entries.size());
+  for (size_t k = 0; k < own.entries.size(); ++k) {
+    EXPECT_EQ(atlas.entries[k].unknowns, own.entries[k].unknowns);
+    EXPECT_LT((atlas.entries[k].shape - own.entries[k].shape).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT((atlas.entries[k].by_unknown - own.entries[k].by_unknown).norm(),
+              1e-6 * own.entries[k].by_unknown.norm());
+  }
+  EXPECT_EQ(&atlas, &cache.get(m, posed, true, ws));
+}
+
 }  // namespace
 }  // namespace genio

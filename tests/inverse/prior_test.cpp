@@ -225,5 +225,60 @@ TEST_F(PriorTest, FilesSayWhatIsWrongAndWhere) {
   EXPECT_THROW(prior_terms(wrong, unknowns_of(m, wrong, true)), InputError);
 }
 
+void expect_same_emg(const Prior& a, const Prior& b) {
+  ASSERT_EQ(names_in(a.emg), names_in(b.emg));
+  for (const auto& [muscle, activation] : a.emg) {
+    EXPECT_EQ(activation.mean, b.emg.at(muscle).mean) << muscle;
+    EXPECT_EQ(activation.sd, b.emg.at(muscle).sd) << muscle;
+  }
+}
+
+TEST_F(PriorTest, EmgMayStandInTheFileItself) {
+  file("emg.csv", "muscle,mean,sd\nGGP,0.2,0.1\nTRANS_L,0,1e-3\n");
+  const Prior beside = read_prior(file("beside.toml", "emg = \"emg.csv\"\n"));
+  const Prior within = read_prior(file(
+      "within.toml", "[emg.GGP]\nmean = 0.2\nsd = 0.1\n[emg]\nTRANS_L = {mean = 0, sd = 1e-3}\n"));
+  expect_same_emg(beside, within);
+  EXPECT_NE(error(file("f.toml", "[emg.GGP]\nmean = 2\nsd = 1\n")).find("from 0 to 1"),
+            std::string::npos);
+  EXPECT_NE(error(file("g.toml", "[emg]\n")).find("'emg' has no muscle"), std::string::npos);
+  EXPECT_NE(error(file("h.toml", "\nemg = 7\n")).find("h.toml:2: 'emg' must be a string"),
+            std::string::npos);
+}
+
+TEST_F(PriorTest, ATextIsReadAsAFileAndNamesNone) {
+  const std::string text = "effort_sd = 0.3\n[emg.GGP]\nmean = 0.2\nsd = 0.1\n";
+  const Prior sent = prior_of_text("prior", text), read = read_prior(file("i.toml", text));
+  EXPECT_EQ(sent.effort_sd, read.effort_sd);
+  expect_same_emg(sent, read);
+  file("emg.csv", "muscle,mean,sd\nGGP,0.2,0.1\n");
+  for (const auto& [wrong, said] :
+       {std::pair("\n\neffort_sd = 0\n", "prior, line 3: 'effort_sd' must be above 0"),
+        {"effort_sd =\n", "prior, line 1: "},
+        {"emg = \"emg.csv\"\n", "prior, line 1: 'emg' names a file"}}) {
+    try {
+      prior_of_text("prior", wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& e) {
+      EXPECT_EQ(std::string(e.what()).find(said), 0u) << e.what();
+    }
+  }
+}
+
+TEST_F(PriorTest, AFileAsTextSaysTheSameWithoutAnyOther) {
+  const std::string csv = file("emg.csv", "muscle,mean,sd\nGGP,0.1234567890123456,1e-3\nHG,1,2\n");
+  const std::string plain = "# of the first session\neffort_sd = 0.3\n";
+  EXPECT_EQ(prior_text(file("j.toml", plain)), plain);
+  const std::string named = file("k.toml",
+                                 "emg = \"emg.csv\"\neffort_sd = 0.30000000000000004\n"
+                                 "[parameter.\"jaw_opening.angle\"]\nmean = 2\nsd = 1\n");
+  for (const std::string& path : {csv, named}) {
+    const Prior read = read_prior(path), sent = prior_of_text("prior", prior_text(path));
+    expect_same_emg(read, sent);
+    EXPECT_EQ(read.effort_sd, sent.effort_sd);
+    EXPECT_EQ(names_in(read.parameters), names_in(sent.parameters));
+  }
+}
+
 }  // namespace
 }  // namespace genio

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "forward/base/elapsed.hpp"
 #include "inverse/search/full_space.hpp"
 #include "inverse/search/global_starts.hpp"
 #include "inverse/shape/objective.hpp"
@@ -111,6 +112,32 @@ TEST_F(Routes, ValleysHoldTheTruthAmongTheDeepest) {
     EXPECT_GE(value(found[k]), value(found[k - 1]) - 1e-9);
     EXPECT_GT((found[k].unknowns - found[0].unknowns).cwiseAbs().maxCoeff(), 0.05);
   }
+}
+
+TEST_F(Routes, AnAtlasIsMadeOnceForEachSetOfUnknownsAlsoInParts) {
+  TongueState& tongue = *all.half(Prior{});
+  const auto made = [&](const Prior& prior, const StopAtlas& stop = {}) {
+    const Stopwatch watch;
+    const size_t entries =
+        tongue.atlas.get(*tongue.model, prior, true, tongue.workspace, stop).entries.size();
+    return std::pair(entries, watch.seconds());
+  };
+  Prior fixed;
+  fixed.fixed["GGP"] = 1;
+  int asked = 0;
+  const auto stopped = made(Prior{}, [&] { return ++asked > 3; });
+  EXPECT_LT(stopped.first, 6u);
+  const Atlas whole = make_atlas(*tongue.model, Prior{}, true, tongue.workspace);
+  const auto first = made(Prior{});
+  ASSERT_EQ(first.first, whole.entries.size());
+  const Atlas& parts = tongue.atlas.get(*tongue.model, Prior{}, true, tongue.workspace);
+  for (size_t k = 0; k < whole.entries.size(); ++k)
+    EXPECT_LT((parts.entries[k].shape - whole.entries[k].shape).cwiseAbs().maxCoeff(), 1e-9);
+  const auto other = made(fixed), again = made(Prior{});
+  EXPECT_GT(first.first, stopped.first);
+  EXPECT_LT(other.first, first.first);
+  EXPECT_EQ(again.first, first.first);
+  EXPECT_LT(again.second, 0.1 * first.second);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "forward/model/build_model.hpp"
+#include "inverse/recording/frame_target.hpp"
 #include "inverse/target/tongue_line.hpp"
 #include "tests/forward/small_model.hpp"
 #include "tests/runs/temporary_folder.hpp"
@@ -142,6 +143,49 @@ TEST_F(MeasuredTest, UpsideDownInTheModelsFrameIsNamed) {
                        1e3 * (2 * middle[1] - line[k][1]));
   out.close();
   EXPECT_THROW(read(path), RegistrationFailed);
+}
+
+TEST(MeasuredChoice, WhatWasSeenAndHowItIsLaidMakeWhatIsMeasured) {
+  const Model model = read_model(test::generic_model());
+  const auto read = [&](bool as_seen) {
+    MeasuredOptions o = ultrasound();
+    o.as_seen = as_seen;
+    return read_measured(
+        o, [&]() -> const Model& { return model; }, [](const std::string&) {});
+  };
+  const Measured laid = read(false), seen = read(true);
+  MeasuredOptions o = ultrasound();
+  const Unregistered u = read_unregistered(o, [](const std::string&) {});
+  ASSERT_TRUE(laid.transform && seen.transform && laid.head_pose);
+  ASSERT_EQ(laid.frames.size(), 4u);
+  ASSERT_EQ(u.frames.size(), 4u);
+  EXPECT_EQ(u.noise, laid.noise);
+  EXPECT_GT(u.palate.size(), 20u);
+  for (size_t k = 0; k < laid.frames.size(); ++k) {
+    const ContourFrame own = registered(model, seen.frames[k], *seen.transform);
+    ASSERT_EQ(own.points.size(), laid.frames[k].points.size());
+    for (size_t i = 0; i < own.points.size(); ++i)
+      EXPECT_LT((own.points[i].position - laid.frames[k].points[i].position)
+                    .cwiseProduct(Vec3(1, 0, 1))
+                    .norm(),
+                1e-12);
+    // Nobody registered it, and it is turned the same way.
+    EXPECT_NEAR(u.frames[k].points[0].position[0], seen.frames[k].points[0].position[0], 1e-12);
+    EXPECT_NEAR(u.frames[k].points[0].position[2], seen.frames[k].points[0].position[2], 1e-12);
+    EXPECT_EQ(u.frames[k].label, laid.frames[k].label);
+  }
+}
+
+TEST(MeasuredChoice, WhatLiesBesideTheModelNeedsNoRegistration) {
+  MeasuredOptions o;
+  o.target = std::string(GENIO_SOURCE_DIR) + "/data/examples/example_shape.csv";
+  EXPECT_THROW(read_unregistered(o, [](const std::string&) {}), InputError);
+  o = ultrasound();
+  o.read.facing = "left";
+  const Unregistered mirrored = read_unregistered(o, [](const std::string&) {});
+  o.read.facing.clear();
+  const Unregistered own = read_unregistered(o, [](const std::string&) {});
+  EXPECT_EQ(mirrored.palate[0][0], -own.palate[0][0]);
 }
 
 }  // namespace

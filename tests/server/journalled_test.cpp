@@ -15,9 +15,11 @@ namespace {
 struct Life {
   explicit Life(const std::string& path)
       : journal(path),
-        dispatcher({}, {}, {[this](const std::string& id) { return known_request(journal, id); }}) {
+        view(path),
+        dispatcher({}, {{"tongue", "h"}},
+                   {[this](const std::string& id) { return known_request(view, id); }}) {
     for (const JournalEntry& entry : journal.unanswered())
-      dispatcher.resume(accepted_record(entry), entry.tries);
+      dispatcher.resume(accepted_record(entry), entry.tries, now_us());
   }
   void ask(const std::string& id, double sigma_mm = 0.5, const std::string& client = "c") {
     shape_request_t r{};
@@ -28,7 +30,15 @@ struct Life {
   void answer(const std::string& id, const char* status = "converged") {
     command_reply_t reply{};
     reply.id = id, reply.status = status, reply.rms_mm = 0.25;
-    dispatcher.finish(id, reply, 0.1);
+    dispatcher.finish(id, reply, {}, now_us());
+  }
+  std::string next() {
+    const auto assignment = dispatcher.next(now_us());
+    return assignment ? assignment->id : "";
+  }
+  int queued() const {
+    server_status_t s{};
+    return dispatcher.tell(s), s.queued;
   }
   /// Keeps the records as the service does; the replies that may be published then.
   std::vector<command_reply_t> turn() {
@@ -46,6 +56,7 @@ struct Life {
   }
 
   Journal journal;
+  JournalView view;
   Dispatcher dispatcher;
 };
 
@@ -62,18 +73,18 @@ class Journalled : public testing::Test {
 TEST_F(Journalled, WhatWasAcceptedIsTakenUpByTheNextServer) {
   live(), life->ask("a"), life->ask("b"), life->turn();
   live();
-  EXPECT_EQ(life->dispatcher.counts().queued, 2);
-  EXPECT_EQ(life->dispatcher.next()->request.id, "a");
+  EXPECT_EQ(life->queued(), 2);
+  EXPECT_EQ(life->next(), "a");
   life->answer("a");
   ASSERT_EQ(life->turn().size(), 1u);
   live();
-  EXPECT_EQ(life->dispatcher.next()->request.id, "b");
+  EXPECT_EQ(life->next(), "b");
 }
 
 TEST_F(Journalled, WhatWasAnsweredIsNotComputedAgain) {
-  live(), life->ask("a"), life->dispatcher.next(), life->answer("a"), life->turn();
+  live(), life->ask("a"), life->next(), life->answer("a"), life->turn();
   live(), life->ask("a", 0.5, "another");
-  EXPECT_EQ(life->dispatcher.counts().queued, 0);
+  EXPECT_EQ(life->queued(), 0);
   const auto replies = life->turn();
   ASSERT_EQ(replies.size(), 1u);
   EXPECT_EQ(replies[0].rms_mm, 0.25);
@@ -81,35 +92,51 @@ TEST_F(Journalled, WhatWasAnsweredIsNotComputedAgain) {
   EXPECT_EQ(life->turn().at(0).status, "refused");
 }
 
-TEST_F(Journalled, AComputationThatEndsTheServerTwiceIsAnsweredAsFailed) {
+// A kill of the server is none of the request's faults.
+TEST_F(Journalled, OnlyTheEndOfAWorkerCountsAsATry) {
   live(), life->ask("a"), life->turn();
-  for (int tries = 0; tries < 2; ++tries) {
-    ASSERT_EQ(life->dispatcher.counts().queued, 1) << tries;
-    life->dispatcher.next(), life->turn();
-    live();
+  for (int kills = 0; kills < 3; ++kills) {
+    ASSERT_EQ(life->next(), "a") << kills;
+    life->turn(), live();
   }
-  EXPECT_EQ(life->dispatcher.counts().queued, 0);
+  for (int tries = 0; tries < 2; ++tries) {
+    ASSERT_EQ(life->queued(), 1) << tries;
+    life->next(), life->dispatcher.lost("a", "killed", now_us());
+    if (tries == 0) life->turn(), live();
+  }
   EXPECT_EQ(life->turn().at(0).status, "failed");
   live(), life->ask("a");
   EXPECT_EQ(life->turn().at(0).status, "failed");
 }
 
+TEST_F(Journalled, WhatEndedTwoWorkersBeforeAKillIsAnsweredAsFailed) {
+  live(), life->ask("a"), life->turn();
+  life->next(), life->dispatcher.lost("a", "killed", now_us());
+  life->turn(), live();
+  life->next(), life->dispatcher.lost("a", "killed", now_us());
+  live();  // before the second end stood on the disk
+  EXPECT_EQ(life->queued(), 1);
+  life->next(), life->dispatcher.lost("a", "killed", now_us()), life->turn();
+  live();
+  EXPECT_EQ(life->queued(), 0);
+}
+
 TEST_F(Journalled, AStopInGoodOrderIsNoTryAndRefusesNobody) {
   live(), life->ask("a"), life->ask("b"), life->turn();
   for (int stops = 0; stops < 3; ++stops) {
-    ASSERT_EQ(life->dispatcher.next()->request.id, "a");
+    ASSERT_EQ(life->next(), "a");
     life->turn();
     life->dispatcher.close();
     life->answer("a", "cancelled");
-    life->dispatcher.refuse_waiting();
+    EXPECT_EQ(life->dispatcher.refuse_rest(), 0u);
     EXPECT_TRUE(life->turn().empty());
     live();
-    EXPECT_EQ(life->dispatcher.counts().queued, 2);
+    EXPECT_EQ(life->queued(), 2);
   }
 }
 
 TEST_F(Journalled, AnAcknowledgedReplyCountsAsDelivered) {
-  live(), life->ask("a"), life->dispatcher.next(), life->answer("a"), life->turn();
+  live(), life->ask("a"), life->next(), life->answer("a"), life->turn();
   EXPECT_EQ(life->journal.counts().delivered, 0);
   ack_t ack{};
   ack.id = "a", ack.client = "c";

@@ -4,10 +4,10 @@
 
 #include <thread>
 
-#include "forward/model/build_model.hpp"
 #include "server/client.hpp"
 #include "server/hub/hub.hpp"
 #include "server/journal/journal_view.hpp"
+#include "server/served_model.hpp"
 #include "server/service.hpp"
 #include "tests/forward/small_model.hpp"
 #include "tests/runs/temporary_folder.hpp"
@@ -24,7 +24,7 @@ class SealedService : public testing::Test {
     options.url = "tcpq://127.0.0.1:" + std::to_string(hub.port());
     options.key = sample_key();
     options.journal = folder.path() + "/journal";
-    thread = std::thread([this] { serve(model, options, stop); });
+    thread = std::thread([this] { serve(nursery, identities(models), options, stop); });
     client = std::make_unique<Client>(options.url, "honest", sample_key());
     ASSERT_TRUE(client->status(60));
   }
@@ -55,7 +55,9 @@ class SealedService : public testing::Test {
     }
     return last;
   }
-  const Model model = read_model(test::generic_model());
+  std::vector<ServedModel> models = read_served_models({test::generic_model()});
+  const Model& model = *models.front().model;
+  const Nursery nursery{worker_of(models, 2000)};
   test::TemporaryFolder folder;
   Hub hub{0};
   ServiceOptions options;

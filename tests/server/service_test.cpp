@@ -8,9 +8,9 @@
 #include <functional>
 #include <thread>
 
-#include "forward/model/build_model.hpp"
 #include "server/client.hpp"
 #include "server/hub/hub.hpp"
+#include "server/served_model.hpp"
 #include "tests/forward/small_model.hpp"
 
 namespace genio {
@@ -20,7 +20,7 @@ class Service : public testing::Test {
  protected:
   void SetUp() override {
     options.url = "tcpq://127.0.0.1:" + std::to_string(hub.port());
-    thread = std::thread([this] { serve(model, options, stop); });
+    thread = std::thread([this] { serve(nursery, identities(models), options, stop); });
     client = std::make_unique<Client>(options.url);
     ASSERT_TRUE(client->status(20));
   }
@@ -37,7 +37,9 @@ class Service : public testing::Test {
     r.bilateral = -1;
     return r;
   }
-  const Model model = read_model(test::generic_model());
+  std::vector<ServedModel> models = read_served_models({test::generic_model()});
+  const Model& model = *models.front().model;
+  const Nursery nursery{worker_of(models, 2000)};
   Hub hub{0};
   ServiceOptions options;
   std::atomic<bool> stop{false};

@@ -74,6 +74,8 @@ const std::map<std::string, std::string> layouts = {
     {"cancel_t", WireLayout<cancel_t>::fields},
     {"ack_t", WireLayout<ack_t>::fields},
     {"server_status_t", WireLayout<server_status_t>::fields},
+    {"part_t", WireLayout<part_t>::fields},
+    {"part_ask_t", WireLayout<part_ask_t>::fields},
     {"sealed_t", WireLayout<sealed_t>::fields}};
 
 TEST(WireLayouts, EachIsThatOfItsLcmFile) {

@@ -37,7 +37,7 @@ TEST(Wire, EveryTruncationAndTrailingByteIsRefused) {
 TEST(Wire, ClaimedLengthsAreNotBelieved) {
   const auto good = encode(sample_request());
   // fingerprint, utime, id, client; model, stream, label; time, priority; prior, frame; placement
-  const size_t count_at = 8 + 8 + 2 * (4 + 2) + 3 * (4 + 1) + 8 + 4 + 2 * (4 + 1) + 4 * 8;
+  const size_t count_at = 8 + 8 + 2 * (4 + 2) + 3 * (4 + 1) + 8 + 4 + 2 * (4 + 1) + 6 * 8;
   std::string why;
   for (uint32_t claim : {0x20000000u, 0x7fffffffu, 0xffffffffu, 0x80000000u, 3u, 1u}) {
     auto bytes = good;

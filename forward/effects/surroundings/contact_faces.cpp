@@ -13,7 +13,7 @@
 namespace genio {
 namespace {
 
-constexpr size_t most_kept = 8;           // some 4 MB each
+constexpr size_t most_kept = 8;           // 48 bytes a point, 16 points a square millimetre
 constexpr double deepest_overlap = 2e-3;  // at rest [m]
 constexpr double another_side = 10e-3;    // so near its side of the bone is asked for [m]
 static_assert(contact_gap < DistanceField::touch, "what touches is asked for");

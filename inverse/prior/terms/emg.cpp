@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "forward/base/toml_reader.hpp"
+#include "inverse/prior/base/read_normal.hpp"
 #include "inverse/recording/base/table_text.hpp"
 
 namespace genio {
@@ -42,9 +42,26 @@ EmgTerm EmgTerm::read_table(const std::string& path) {
 }
 
 EmgTerm EmgTerm::read(const TomlReader& file) {
-  if (!file.root().get("emg")) return {};
-  const auto folder = std::filesystem::path(file.path()).parent_path();
-  return read_table((folder / file.text(file.root(), "emg")).string());
+  const toml::node* node = file.root().get("emg");
+  if (!node) return {};
+  if (!node->is_table()) {
+    const std::string name = file.text(file.root(), "emg");
+    if (!file.is_file())
+      file.fail(*node,
+                "'emg' names a file, and a text that was sent can name none; expected [emg.MUSCLE] "
+                "with mean and sd");
+    return read_table((std::filesystem::path(file.path()).parent_path() / name).string());
+  }
+  EmgTerm term;
+  for (const auto& [key, value] : *node->as_table()) {
+    const std::string name(key.str());
+    const Normal activation = read_normal(file, value, name);
+    if (activation.mean < 0 || activation.mean > 1)
+      file.fail(value, fmt::format("'{}': 'mean' must be an activation from 0 to 1", name));
+    term.emg[name] = activation;
+  }
+  if (term.emg.empty()) file.fail(*node, "'emg' has no muscle");
+  return term;
 }
 
 }  // namespace genio

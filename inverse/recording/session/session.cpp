@@ -91,7 +91,8 @@ AlignedRecording align_by_all(const Model& model, const TongueReach& reach, Sess
                           best.reading,
                           judgement,
                           best.bite_plane,
-                          best.head_points};
+                          best.head_points,
+                          mirrored};
   if (const double by = bite_plane_off; std::abs(by) > 0)
     result.judgement.faults.push_back(
         fmt::format("its bite plane is tilted by {:.0f} degrees against the model's occlusal "
@@ -136,7 +137,12 @@ AlignedRecording align_by_all(const Model& model, const TongueReach& reach, Sess
 AlignedRecording align(const Model& model, SessionFile target,
                        const std::optional<SessionFile>& palate, const ReadOptions& options,
                        const SessionMarks& marks) {
-  const TongueReach reach = reach_of(model);  // takes a solve a muscle
+  return align(model, reach_of(model), std::move(target), palate, options, marks);
+}
+
+AlignedRecording align(const Model& model, const TongueReach& reach, SessionFile target,
+                       const std::optional<SessionFile>& palate, const ReadOptions& options,
+                       const SessionMarks& marks) {
   return by_marks_that_agree(model, marks, [&](const SessionMarks& some) {
     return align_by_all(model, reach, target, palate, options, some);
   });

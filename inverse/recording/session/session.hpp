@@ -41,6 +41,8 @@ struct AlignedRecording {
   /// The bite plane's tilt against the model's occlusal plane, where there is one [rad].
   std::optional<double> bite_plane = {};
   std::map<HeadPoint, double> head_points = {};  ///< from the model's, once registered [m]
+  /// Without a palate a reading that the caller excludes fits better, though not by far.
+  bool turned_fits_better = false;
 };
 
 /// Finds the axes once for all files of the session. Every reading that the caller allows is
@@ -55,11 +57,19 @@ AlignedRecording align(const Model& model, SessionFile target,
                        const std::optional<SessionFile>& palate, const ReadOptions& options,
                        const SessionMarks& marks = {});
 
+/// The same with the model's reach at hand.
+AlignedRecording align(const Model& model, const TongueReach& reach, SessionFile target,
+                       const std::optional<SessionFile>& palate, const ReadOptions& options,
+                       const SessionMarks& marks = {});
+
 /// A reading of contours that fits far better than that in which they stand, as text; empty where
 /// there is none, or they lie near the tongue at rest. Of files in the model's frame.
 std::string better_reading(const Model& model, const ContourFile& file, double from_rest);
 
 /// The points of all frames on the midsagittal line, curves and marked points, (x, z) [m].
 std::vector<std::vector<Vec2>> midsagittal_points(const ContourFile& file);
+
+/// A palate's points: a trace is one frame; the sweep of a sensor is all of them, (x, z) [m].
+std::vector<Vec2> trace_of(const ContourFile& palate);
 
 }  // namespace genio

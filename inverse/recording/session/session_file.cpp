@@ -5,13 +5,6 @@
 namespace genio {
 namespace {
 
-SessionFile session_file(const std::string& path, RawContours raw, const ReadOptions& options) {
-  const FileAxes axes = raw.axes.value_or(FileAxes{"m", "left", "up"});
-  ContourFile file =
-      raw.axes ? in_metres(std::move(raw.file), axes, path, options) : std::move(raw.file);
-  return {path, with_one_curve_a_frame(std::move(file), path), axes};
-}
-
 SessionFile read_trace(const std::string& path, ReadOptions options, const SessionFile& target) {
   check_axes_options(options);
   RawContours raw = read_raw(path, options);
@@ -21,6 +14,13 @@ SessionFile read_trace(const std::string& path, ReadOptions options, const Sessi
 }
 
 }  // namespace
+
+SessionFile session_file(const std::string& path, RawContours raw, const ReadOptions& options) {
+  const FileAxes axes = raw.axes.value_or(FileAxes{"m", "left", "up"});
+  ContourFile file =
+      raw.axes ? in_metres(std::move(raw.file), axes, path, options) : std::move(raw.file);
+  return {path, with_one_curve_a_frame(std::move(file), path), axes};
+}
 
 SessionFile read_session_file(const std::string& path, const ReadOptions& options) {
   check_axes_options(options);

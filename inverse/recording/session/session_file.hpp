@@ -12,6 +12,10 @@ struct SessionFile {
   FileAxes axes;  ///< what its format says of them
 };
 
+/// What was read, or came without a file, as a session has it; errors call it `path`. Throws
+/// InputError where its numbers are no tongue's.
+SessionFile session_file(const std::string& path, RawContours raw, const ReadOptions& options);
+
 /// Reads a file of a session. Throws InputError naming file and field.
 SessionFile read_session_file(const std::string& path, const ReadOptions& options);
 

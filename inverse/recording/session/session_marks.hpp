@@ -7,9 +7,6 @@
 
 namespace genio {
 
-/// A trace is one frame; the sweep of a sensor is all of them. Points are (back, up) [m].
-std::vector<Vec2> trace_of(const ContourFile& file);
-
 /// The marks as a reading of the axes has them. Throws InputError where a bite plane is no straight
 /// line, or the model lacks a point.
 HeadMarks marks_as(const Model& model, const SessionMarks& session, const AxesReading& reading);

@@ -89,5 +89,18 @@ TEST(SensorPlace, TwoSensorsAtOnePlaceLieTogether) {
   EXPECT_EQ(place_contradiction(m, glued(m, {"tip", "tip"}, {"tip", "tip+2mm"})), "");
 }
 
+TEST(SensorPlace, ADistanceThatOtherUnitsWouldExplainAsksForThem) {
+  const Model m = read_model(test::generic_model());
+  const std::vector<std::string> places = {"tip+10mm", "tip+25mm", "tip+40mm"};
+  auto file = glued(m, places, places, 0.1);  // centimetres, read as millimetres
+  file.units = "mm";
+  EXPECT_NE(place_contradiction(m, file).find("are its units cm?"), std::string::npos)
+      << place_contradiction(m, file);
+  file = glued(m, places, places, 0.4);  // nothing explains that
+  file.units = "mm";
+  EXPECT_NE(place_contradiction(m, file), "");
+  EXPECT_EQ(place_contradiction(m, file).find("are its units"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace genio

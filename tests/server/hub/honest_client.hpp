@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "server/link.hpp"
+#include "server/link/link.hpp"
 
 namespace genio::test {
 

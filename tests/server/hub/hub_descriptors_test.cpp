@@ -1,6 +1,5 @@
 // A hub in a process that has no descriptors left.
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -8,45 +7,16 @@
 
 #include "forward/base/elapsed.hpp"
 #include "server/hub/hub.hpp"
+#include "tests/server/hub/few_descriptors.hpp"
 #include "tests/server/hub/raw_client.hpp"
 
 namespace genio {
 namespace {
 
 using test::eventually;
+using test::FewDescriptors;
 using test::milliseconds;
 using test::RawClient;
-
-/// While it lives, the process has only a few descriptors left.
-class FewDescriptors {
- public:
-  explicit FewDescriptors(size_t left) {
-    getrlimit(RLIMIT_NOFILE, &before_);
-    taken_.emplace_back(open("/dev/null", O_RDONLY | O_CLOEXEC));
-    rlimit lower = before_;
-    lower.rlim_cur = rlim_t(taken_.front().get()) + 64;
-    setrlimit(RLIMIT_NOFILE, &lower);
-    for (;;) {
-      Descriptor one(open("/dev/null", O_RDONLY | O_CLOEXEC));
-      if (!one) break;
-      taken_.push_back(std::move(one));
-    }
-    taken_.resize(taken_.size() - left);
-  }
-  /// Not even one that was closed can be had again.
-  void take_all() {
-    rlimit none = before_;
-    none.rlim_cur = 0;
-    setrlimit(RLIMIT_NOFILE, &none);
-  }
-  ~FewDescriptors() { setrlimit(RLIMIT_NOFILE, &before_); }
-  FewDescriptors(const FewDescriptors&) = delete;
-  FewDescriptors& operator=(const FewDescriptors&) = delete;
-
- private:
-  rlimit before_{};
-  std::vector<Descriptor> taken_;
-};
 
 /// Processor time that the process takes while nothing happens [s of half a second].
 double idle_seconds() {

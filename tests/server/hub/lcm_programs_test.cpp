@@ -11,7 +11,7 @@
 #include <map>
 
 #include "server/hub/hub.hpp"
-#include "server/link.hpp"
+#include "server/link/link.hpp"
 #include "tests/server/hub/raw_client.hpp"
 
 extern char** environ;

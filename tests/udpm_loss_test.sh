@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# The service over UDP multicast between two hosts (network namespaces) whose network loses 1 % and
+# 5 % of the packets each way. Every request must end in a whole reply.
+set -eu
+genio=$1 source=$2 requests=${3:-20}
+if [ "${GENIO_IN_NAMESPACE:-}" != yes ]; then
+  enter=(unshare --net)
+  [ "$(id -u)" -eq 0 ] || enter=(unshare --user --map-root-user --net)
+  if ! "${enter[@]}" true 2>/dev/null; then
+    echo "SKIPPED: this machine does not let us make a network namespace"
+    exit 77
+  fi
+  GENIO_IN_NAMESPACE=yes exec "${enter[@]}" "$0" "$@"
+fi
+fail() { echo "FAILED: $*"; cat "$work/log" "$work/error" 2>/dev/null; exit 1; }
+work=$(mktemp -d)
+unshare --net sleep 600 & other=$!
+server=
+trap 'kill $server $other 2>/dev/null; wait 2>/dev/null || true; rm -rf "$work"' EXIT
+until [ "$(readlink /proc/$other/ns/net)" != "$(readlink /proc/self/ns/net)" ]; do sleep 0.01; done
+there=(nsenter "--net=/proc/$other/ns/net")
+ip link add here type veth peer name there netns "$other"
+ip addr add 10.0.0.1/24 dev here
+"${there[@]}" ip addr add 10.0.0.2/24 dev there
+ip link set here up
+"${there[@]}" ip link set there up
+ip route add 224.0.0.0/4 dev here
+"${there[@]}" ip route add 224.0.0.0/4 dev there
+
+# lose PERCENT DEVICE [WHERE...]: what arrives at the device is lost by chance. The program of the
+# filter says: random number, modulo 100, at least PERCENT? take it (0), else drop it (2).
+lose() {
+  local percent=$1 device=$2
+  shift 2
+  "$@" tc qdisc del dev "$device" ingress 2>/dev/null || true
+  "$@" tc qdisc add dev "$device" ingress &&
+    "$@" tc filter add dev "$device" ingress bpf direct-action bytecode \
+      "5,32 0 0 4294963256,148 0 0 100,53 1 0 $percent,6 0 0 2,6 0 0 0"
+}
+lost() { "$@" tc -s qdisc show dev "${device}" ingress | sed -n 's/.*dropped \([0-9]*\).*/\1/p'; }
+if ! lose 1 here 2>"$work/error"; then
+  echo "SKIPPED: this machine's kernel has no filter of arriving packets: $(cat "$work/error")"
+  exit 77
+fi
+
+url='udpm://239.255.76.67:7667?ttl=1'
+"$genio" serve --lcm "$url" 2>"$work/log" & server=$!
+"${there[@]}" "$genio" request status --lcm "$url" --timeout-s 60 >/dev/null
+ask() { "${there[@]}" "$genio" request --lcm "$url" --json "$@" 2>"$work/error"; }
+for percent in 1 5; do
+  lose "$percent" here && lose "$percent" there "${there[@]}"
+  for ((k = 1; k <= requests; ++k)); do
+    began=${EPOCHREALTIME/[.,]/}
+    ask --target "$source/data/examples/example_shape.csv" --starts 1 --timeout-s 60 >"$work/answer" ||
+      fail "request $k at $percent % was not answered"
+    grep -q '"status":"converged"' "$work/answer" || fail "request $k: $(cat "$work/answer")"
+    echo "$(((${EPOCHREALTIME/[.,]/} - began) / 1000))" >>"$work/ms$percent"
+  done
+  device=here arrived=$(lost)
+  device=there answered=$(lost "${there[@]}")
+  [ "$arrived" -gt 0 ] || fail "nothing was lost on the way to the server"
+  [ "$answered" -gt 0 ] || fail "nothing was lost on the way back"
+  echo "$percent %: $requests requests, $arrived and $answered packets lost, ms:" \
+    $(sort -n "$work/ms$percent")
+done
+
+# A megabyte of points: whatever comes of it, the client is told.
+awk -F, 'NR == 1 { print; next } { line[NR] = $0 } END {
+  for (k = 1; k <= 20000; ++k) { split(line[2 + int((k - 1) * (NR - 1) / 20000)], f, ",")
+    printf "1,%d,%.4f,%.4f,%s,many points\n", k, f[3] + 0.00001 * k, f[4], 20 } }' \
+  "$source/data/examples/example_shape.csv" >"$work/many.csv"
+ask --target "$work/many.csv" --deadline-s 5 --timeout-s 60 >"$work/answer" || true
+grep -q '"status":' "$work/answer" || fail "the large request was not answered"
