@@ -11,7 +11,7 @@
 
 #include "forward/base/elapsed.hpp"
 #include "server/keeper.hpp"
-#include "server/link/link.hpp"
+#include "server/seal/sealed_link.hpp"
 
 namespace genio {
 namespace {
@@ -34,7 +34,7 @@ class Departures {
     messages_.push_back(std::move(message));
   }
   /// Publishes from the front until one cannot be sent.
-  void publish(Link& link) {
+  void publish(SealedLink& link) {
     while (!messages_.empty() && link.publish(messages_.front().channel, messages_.front().bytes))
       drop_first();
   }
@@ -78,7 +78,7 @@ class ServiceLoop {
         keeper_(options.journal.empty() ? nullptr : keeper_of(options.journal, observer)),
         dispatcher_(options.limits, models, lookup_in(keeper_.get())),
         pool_(nursery, options.workers),
-        link_(options.url) {
+        link_(options.url, options.key) {
     if (keeper_) resume();
     subscribe();
     waited_for_ = {pool_.descriptor()};
@@ -126,6 +126,7 @@ class ServiceLoop {
   }
 
   void subscribe() {
+    link_.ask_for_key_on({"GENIO_REQUEST", "GENIO_CANCEL"});
     link_.subscribe("GENIO_REQUEST", [this](const std::string&, const void* data, size_t size) {
       dispatcher_.receive_request(data, size, now_us());
     });
@@ -202,6 +203,9 @@ class ServiceLoop {
     s.utime = now_us(), s.version = GENIO_VERSION, s.uptime_s = uptime_.seconds();
     s.workers = pool_.alive(), s.replaced = pool_.replaced();
     s.memory_mb = resident_mb();
+    const SealDrops& dropped = link_.dropped();
+    s.unsigned_dropped = dropped.unsealed, s.forged_dropped = dropped.forged;
+    s.stale_dropped = dropped.stale;
     if (!options_.hub) return s;
     const HubCounts hub = options_.hub();
     for (uint64_t drops : hub.drops) s.hub_dropped += int64_t(drops);
@@ -215,7 +219,7 @@ class ServiceLoop {
   std::unique_ptr<Keeper> keeper_;
   Dispatcher dispatcher_;
   WorkerPool pool_;
-  Link link_;
+  SealedLink link_;
   std::vector<int> waited_for_;
   Departures departures_;
   double next_status_ = 0;

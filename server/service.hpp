@@ -8,12 +8,14 @@
 #include "server/dispatch/dispatcher.hpp"
 #include "server/hub/counts.hpp"
 #include "server/observe/observer.hpp"
+#include "server/seal/seal_key.hpp"
 #include "server/workers/pool.hpp"
 
 namespace genio {
 
 struct ServiceOptions {
   std::string url;  ///< as choose_url gives it
+  SharedKey key;    ///< only who seals with it may ask; null: everyone may
   DispatchLimits limits;
   WorkerLimits workers;
   /// File that keeps requests and replies, see docs/journal.md; empty: they end with the process.

@@ -40,19 +40,22 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
         good = skip_string();
         break;
       case 'n':
+      case 'm': {
+        const int most = *f == 'n' ? max_array_length : int(max_message_bytes);
         good = read_int(count);
-        if (good && (count < 0 || count > max_array_length))
+        if (good && (count < 0 || count > most))
           return "an array claims " + std::to_string(count) + " entries; expected 0 to " +
-                 std::to_string(max_array_length);
+                 std::to_string(most);
+        break;
+      }
+      case 'B':
+        good = skip(size_t(count));
         break;
       case 'I':
         good = skip(4 * size_t(count));
         break;
       case 'D':
         good = skip(8 * size_t(count));
-        break;
-      case 'B':
-        good = skip(size_t(count));
         break;
       case 'S':
         for (int32_t i = 0; i < count && good; ++i) good = skip_string();

@@ -53,6 +53,12 @@ std::string sample_part_ask() {
   return text_of(ask);
 }
 
+std::string sample_sealed() {
+  sealed_t s{};
+  s.channel = "GENIO_ACK", s.body = encode(ack_t{}), s.size = int(s.body.size());
+  return text_of(s);
+}
+
 /// A request of version 0.4.0, which begins as all do.
 std::string old_request() {
   return {"\x09\x6d\x07\x81\xa2\x21\x6e\x96\0\0\0\0\0\0\0\0\0\0\0\2a\0\0\0\0\2c\0", 28};
@@ -106,7 +112,8 @@ bool is_message(const Bytes& bytes, std::string& why) {
   }
   return decode_and_compare<progress_t>(bytes, why) || decode_and_compare<cancel_t>(bytes, why) ||
          decode_and_compare<ack_t>(bytes, why) || decode_and_compare<server_status_t>(bytes, why) ||
-         decode_and_compare<part_t>(bytes, why) || decode_and_compare<part_ask_t>(bytes, why);
+         decode_and_compare<part_t>(bytes, why) || decode_and_compare<part_ask_t>(bytes, why) ||
+         decode_and_compare<sealed_t>(bytes, why);
 }
 
 void read_message(const std::string& path) {
@@ -165,20 +172,21 @@ FuzzReader http_reader() {
 }  // namespace
 
 std::vector<FuzzReader> wire_readers() {
-  return {{"wire",
-           "message",
-           {text_of(sample_request()), text_of(sample_device_request()), old_request(),
-            text_of(command_reply_t{}), text_of(progress_t{}), text_of(cancel_t{}),
-            text_of(ack_t{}), text_of(server_status_t{}), sample_part(), sample_part_ask()},
-           read_message},
-          datagram_reader(),
-          {"parts",
-           "script",
-           {sample_parts_script()},
-           [](const std::string& path) { play_parts_script(bytes_of_file(path)); }},
-          http_reader(),
-          {"dispatch", "script", sample_dispatch_scripts(),
-           [](const std::string& path) { play_dispatch_script(bytes_of_file(path)); }}};
+  return {
+      {"wire",
+       "message",
+       {text_of(sample_request()), text_of(sample_device_request()), old_request(),
+        text_of(command_reply_t{}), text_of(progress_t{}), text_of(cancel_t{}), text_of(ack_t{}),
+        text_of(server_status_t{}), sample_part(), sample_part_ask(), sample_sealed()},
+       read_message},
+      datagram_reader(),
+      {"parts",
+       "script",
+       {sample_parts_script()},
+       [](const std::string& path) { play_parts_script(bytes_of_file(path)); }},
+      http_reader(),
+      {"dispatch", "script", sample_dispatch_scripts(),
+       [](const std::string& path) { play_dispatch_script(bytes_of_file(path)); }}};
 }
 
 }  // namespace genio::test
