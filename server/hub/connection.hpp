@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "server/hub/backlog.hpp"
-#include "server/hub/listener.hpp"
+#include "server/hub/descriptor.hpp"
 #include "server/hub/protocol/parser.hpp"
 #include "server/hub/protocol/subscriptions.hpp"
 #include "server/hub/standing.hpp"
@@ -21,11 +21,11 @@ struct HubDirection {
 
 /// All that a hub holds of one connection.
 struct HubConnection {
-  HubConnection(uint64_t its_id, HubArrival arrival, const HubLimits& limits, size_t& held,
-                HubTime now)
+  HubConnection(uint64_t its_id, Descriptor its_socket, uint16_t its_port, const HubLimits& limits,
+                size_t& held, HubTime now)
       : id(its_id),
-        port(arrival.port),
-        socket(std::move(arrival.socket)),
+        port(its_port),
+        socket(std::move(its_socket)),
         parser(limits.name_bytes, limits.payload_bytes),
         subscriptions(limits.subscriptions, limits.programs),
         backlog(held),

@@ -78,7 +78,7 @@ HubListener::Arrival HubListener::accept() {
     if (taken) {
       set_option(taken.get(), IPPROTO_TCP, TCP_NODELAY, 1);
       set_option(taken.get(), IPPROTO_TCP, TCP_QUICKACK, 1);
-      return {Outcome::accepted, {std::move(taken), ntohs(other.sin_port)}};
+      return {Outcome::accepted, std::move(taken), ntohs(other.sin_port)};
     }
     if (concerns_one(errno)) continue;
     const bool nobody = errno == EAGAIN || errno == EWOULDBLOCK || !somebody_waits(socket_.get());

@@ -5,12 +5,6 @@
 
 namespace genio {
 
-/// A connection that was accepted, and the port at its other side.
-struct HubArrival {
-  Descriptor socket;
-  uint16_t port = 0;
-};
-
 /// The socket at which a hub's connections arrive, on 127.0.0.1.
 class HubListener {
  public:
@@ -20,7 +14,8 @@ class HubListener {
   enum class Outcome { accepted, nobody, turned_away, no_descriptor };
   struct Arrival {
     Outcome outcome;
-    HubArrival connection = {};
+    Descriptor socket = {};
+    uint16_t port = 0;  ///< at the other side
   };
   /// The next connection, if one waits.
   Arrival accept();

@@ -163,7 +163,7 @@ bool HubLoop::admit_one(HubTime now) {
   if (arrival.outcome == HubListener::Outcome::no_descriptor) return pause_accepting(now), false;
   if (arrival.outcome == HubListener::Outcome::turned_away) return true;
   try {
-    HubConnection& c = table_.admit(std::move(arrival.connection), now);
+    HubConnection& c = table_.admit(std::move(arrival.socket), arrival.port, now);
     c.in.ready = c.out.ready = true;  // to be greeted at once
   } catch (const std::bad_alloc&) {
     ++table_.counters().dropped(HubDrop::out_of_memory);

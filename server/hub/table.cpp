@@ -38,13 +38,13 @@ HubTable::HubTable(const HubLimits& limits) : limits_(limits) {
   limits_.connections = affordable_connections(limits.connections);
 }
 
-HubConnection& HubTable::admit(HubArrival arrival, HubTime now) {
+HubConnection& HubTable::admit(Descriptor socket, uint16_t port, HubTime now) {
   const auto stay = [](const auto& entry) { return !entry.second.ended; };
   const auto present = size_t(std::count_if(connections_.begin(), connections_.end(), stay));
   if (present >= limits_.connections) drop_least_useful(HubDrop::displaced, now);
   const uint64_t id = next_id_++;
   const auto place =
-      connections_.try_emplace(id, id, std::move(arrival), limits_, held_, now).first;
+      connections_.try_emplace(id, id, std::move(socket), port, limits_, held_, now).first;
   HubConnection& connection = place->second;
   try {
     connection.backlog.push(

@@ -14,9 +14,9 @@ class HubTable {
  public:
   explicit HubTable(const HubLimits& limits);
 
-  /// Takes a new connection; where all places are taken, the least useful one is dropped. Throws
-  /// std::bad_alloc, and the new one is closed then.
-  HubConnection& admit(HubArrival arrival, HubTime now);
+  /// Takes a new connection, from that port; where all places are taken, the least useful one is
+  /// dropped. Throws std::bad_alloc, and the new one is closed then.
+  HubConnection& admit(Descriptor socket, uint16_t port, HubTime now);
   HubConnection* find(uint64_t id);
   std::map<uint64_t, HubConnection>& all() { return connections_; }
   const std::map<uint64_t, HubConnection>& all() const { return connections_; }

@@ -118,7 +118,7 @@ void MetricsLoop::accept_some(Time now) {
       end_for_all(connections_.front().socket.get());
       connections_.pop_front();
     }
-    connections_.push_back({std::move(arrival.connection.socket), now});
+    connections_.push_back({std::move(arrival.socket), now});
     serve(connections_.back());
   }
 }

@@ -1,6 +1,7 @@
 #include "server/wire/wire.hpp"
 
 #include <chrono>
+#include <cstring>
 
 namespace genio {
 
@@ -20,8 +21,10 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
     if (!read_int(length) || length < 1 || length > max_string_length + 1 ||
         size_t(length) > size - at)
       return false;
+    // LCM's strings end at their first zero byte, so that what follows would be lost.
+    const void* const end = std::memchr(data + at, 0, size_t(length));
     at += size_t(length);
-    return data[at - 1] == 0;
+    return end == data + at - 1;
   };
   for (const char* f = fields; *f; ++f) {
     bool good = true;
@@ -63,7 +66,8 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
       default:
         return "unknown layout";
     }
-    if (!good) return "the message ends early or a length in it is wrong";
+    if (!good)
+      return "the message ends early, a length in it is wrong, or a string has a zero byte inside";
   }
   return at == size ? "" : "there are bytes after the end of the message";
 }

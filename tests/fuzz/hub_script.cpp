@@ -107,7 +107,7 @@ class ModelledHub {
       throw std::runtime_error("no sockets");
     leave(place);
     Descriptor there(pair[1]);
-    const HubConnection& c = table_.admit({Descriptor(pair[0]), uint16_t(place)}, now_);
+    const HubConnection& c = table_.admit(Descriptor(pair[0]), uint16_t(place), now_);
     const HubLimits& limits = table_.limits();
     clients_.insert_or_assign(place, ModelClient{c.id,
                                                  std::move(there),
