@@ -37,7 +37,12 @@ lose() {
     "$@" tc filter add dev "$device" ingress bpf direct-action bytecode \
       "5,32 0 0 4294963256,148 0 0 100,53 1 0 $percent,6 0 0 2,6 0 0 0"
 }
-lost() { "$@" tc -s qdisc show dev "${device}" ingress | sed -n 's/.*dropped \([0-9]*\).*/\1/p'; }
+# lost DEVICE [WHERE...]: how many were.
+lost() {
+  local device=$1
+  shift
+  "$@" tc -s qdisc show dev "$device" ingress | sed -n 's/.*dropped \([0-9]*\).*/\1/p'
+}
 if ! lose 1 here 2>"$work/error"; then
   echo "SKIPPED: this machine's kernel has no filter of arriving packets: $(cat "$work/error")"
   exit 77
@@ -46,28 +51,38 @@ fi
 url='udpm://239.255.76.67:7667?ttl=1'
 "$genio" serve --lcm "$url" 2>"$work/log" & server=$!
 "${there[@]}" "$genio" request status --lcm "$url" --timeout-s 60 >/dev/null
+# As many frames as requests, each the shape of the example, sent one after another.
+awk -F, -v frames="$requests" 'NR == 1 { header = $0; next } { shape[NR] = $0 } END {
+  print header
+  for (k = 1; k <= frames; ++k)
+    for (n = 2; n <= NR; ++n) { sub(/^[0-9]+/, k, shape[n]); print shape[n] } }' \
+  "$source/data/examples/example_shape.csv" >"$work/frames.csv"
 ask() { "${there[@]}" "$genio" request --lcm "$url" --json "$@" 2>"$work/error"; }
 for percent in 1 5; do
-  lose "$percent" here && lose "$percent" there "${there[@]}"
-  for ((k = 1; k <= requests; ++k)); do
-    began=${EPOCHREALTIME/[.,]/}
-    ask --target "$source/data/examples/example_shape.csv" --starts 1 --timeout-s 60 >"$work/answer" ||
-      fail "request $k at $percent % was not answered"
-    grep -q '"status":"converged"' "$work/answer" || fail "request $k: $(cat "$work/answer")"
-    echo "$(((${EPOCHREALTIME/[.,]/} - began) / 1000))" >>"$work/ms$percent"
-  done
-  device=here arrived=$(lost)
-  device=there answered=$(lost "${there[@]}")
-  [ "$arrived" -gt 0 ] || fail "nothing was lost on the way to the server"
-  [ "$answered" -gt 0 ] || fail "nothing was lost on the way back"
-  echo "$percent %: $requests requests, $arrived and $answered packets lost, ms:" \
-    $(sort -n "$work/ms$percent")
+  lose "$percent" here
+  lose "$percent" there "${there[@]}"
+  ask --target "$work/frames.csv" --starts 1 --timeout-s 60 | {
+    began=
+    while read -r answer; do
+      now=${EPOCHREALTIME/[.,]/}
+      echo "$answer" >>"$work/answers$percent"
+      [ -z "$began" ] || echo "$(((now - began) / 1000))" >>"$work/ms$percent"
+      began=$now
+    done
+  }
+  whole=$(grep -c '"status":"converged"' "$work/answers$percent" || true)
+  [ "$whole" -eq "$requests" ] || fail "$whole of $requests requests were answered at $percent %"
+  echo "$percent %: $whole of $requests answered, packets lost: $(lost here) and" \
+    "$(lost there "${there[@]}"), usual and slowest ms: $(sort -n "$work/ms$percent" |
+      awk '{ ms[NR] = $1 } END { print ms[int((NR + 1) / 2)], "and", ms[NR] }')"
 done
 
-# A megabyte of points: whatever comes of it, the client is told.
-awk -F, 'NR == 1 { print; next } { line[NR] = $0 } END {
-  for (k = 1; k <= 20000; ++k) { split(line[2 + int((k - 1) * (NR - 1) / 20000)], f, ",")
-    printf "1,%d,%.4f,%.4f,%s,many points\n", k, f[3] + 0.00001 * k, f[4], 20 } }' \
-  "$source/data/examples/example_shape.csv" >"$work/many.csv"
+# Twenty thousand points, 0.8 MB: whatever comes of it, the client is told.
+awk -F, 'NR == 1 { print; next } { x[NR] = $3; z[NR] = $4 } END {
+  for (k = 0; k < 20000; ++k) { at = 2 + k / 20000 * (NR - 2); n = int(at); r = at - n
+    printf "1,%d,%.5f,%.5f,20,many points\n", k + 1, x[n] + r * (x[n + 1] - x[n]),
+      z[n] + r * (z[n + 1] - z[n]) } }' "$source/data/examples/example_shape.csv" >"$work/many.csv"
 ask --target "$work/many.csv" --deadline-s 5 --timeout-s 60 >"$work/answer" || true
 grep -q '"status":' "$work/answer" || fail "the large request was not answered"
+[ "$(lost here)" -gt 0 ] || fail "nothing was lost on the way to the server"
+echo "the large request: $(lost here) packets lost, $(grep -o '"status":"[a-z]*"' "$work/answer")"
