@@ -87,6 +87,7 @@ class ServiceLoop {
 
   void turn() {
     const bool up = link_.wait(patience_ms(), waited_for_);
+    tell_port();
     take_from_workers();
     dispatcher_.pass_deadlines(now_us());
     for (const std::string& id : dispatcher_.take_unwanted()) pool_.withdraw(id);
@@ -118,6 +119,12 @@ class ServiceLoop {
   }
 
  private:
+  void tell_port() {
+    const uint16_t port = link_.local_port();
+    if (options_.connected_from && std::exchange(port_, port) != port)
+      options_.connected_from(port);
+  }
+
   void resume() {
     const auto unanswered = keeper_->unanswered();
     if (!unanswered.empty()) observer_.write(resumed_event(int64_t(unanswered.size())));
@@ -223,6 +230,7 @@ class ServiceLoop {
   std::vector<int> waited_for_;
   Departures departures_;
   double next_status_ = 0;
+  uint16_t port_ = 0;
   bool status_asked_ = false, heard_ = false, serving_ = false;
 };
 

@@ -23,6 +23,8 @@ struct ServiceOptions {
   Observer* observer = nullptr;  ///< is told what happens; outlives the call
   /// Told of each computation that ended with a reply.
   std::function<void(const std::string& id)> computed;
+  /// Told the port from which the service is connected to a hub, so that its own hub may prefer it.
+  std::function<void(uint16_t port)> connected_from;
   std::function<HubCounts()> hub;  ///< counts of the server's own hub, if it has one
 };
 

@@ -97,7 +97,10 @@ Runner add_serve(Options& options) {
     if (*metrics_port > 0)
       metrics = taking<MetricsEndpoint>(uint16_t(*metrics_port),
                                         fmt::format("--metrics-port {}", *metrics_port));
-    if (hub) service.hub = [&] { return hub->counts(); };
+    if (hub) {
+      service.hub = [&] { return hub->counts(); };
+      service.connected_from = [&](uint16_t port) { hub->favour(port); };
+    }
     Observer observer(
         {&log, metrics.get(), &manager, service.hub, facts_of(service, *metrics_port)});
     service.observer = &observer;

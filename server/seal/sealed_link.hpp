@@ -38,6 +38,7 @@ class SealedLink {
   /// As Link.
   bool wait(int timeout_ms, std::span<const int> others = {});
   bool connected() const { return link_.connected(); }
+  uint16_t local_port() const { return link_.local_port(); }
 
   /// With a key: tells senders without one, on channels to which this subscribes and where they
   /// name themselves, that it is asked for; see KeyRefusals. That leaves at the next wait().
