@@ -30,15 +30,19 @@ class Patience {
   double ask_at_ = 0, pause_ = first_pause_s;
 };
 
-std::string unique_name() {
+std::string random_text() {
   std::random_device random;
-  return fmt::format("c{}-{:08x}{:08x}", getpid(), random(), random());
+  return fmt::format("{:08x}{:08x}", random(), random());
 }
+
+std::string unique_name() { return fmt::format("c{}-{}", getpid(), random_text()); }
 
 }  // namespace
 
 Client::Client(const std::string& url, std::string name, SharedKey key)
-    : link_(url, std::move(key)), name_(name.empty() ? unique_name() : std::move(name)) {
+    : link_(url, std::move(key)),
+      name_(name.empty() ? unique_name() : std::move(name)),
+      session_(random_text()) {
   if (!usable_client(name_))
     throw InputError(
         fmt::format("client '{}': expected 1 to 40 letters, digits, '_' or '-'", name_));
@@ -64,7 +68,7 @@ std::optional<command_reply_t> Client::request(
     shape_request_t request, double timeout_s,
     const std::function<void(const progress_t&)>& progress) {
   request.client = name_;
-  if (request.id.empty()) request.id = fmt::format("{}-{}", name_, ++sent_);
+  if (request.id.empty()) request.id = fmt::format("{}-{}.{}", name_, session_, ++sent_);
   request.utime = now_us();
   waiting_for_ = request.id;
   reply_.reset();

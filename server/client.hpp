@@ -40,6 +40,7 @@ class Client {
  private:
   SealedLink link_;
   std::string name_;
+  std::string session_;  ///< of this object: another one of the same name has other ids
   int sent_ = 0;
   std::string waiting_for_;
   std::optional<command_reply_t> reply_;

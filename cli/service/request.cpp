@@ -140,7 +140,7 @@ int run_status(const RequestOptions& o) {
   return done;
 }
 
-/// The client's name in an id that Client made: "NAME-NUMBER".
+/// The client's name in an id that Client made: "NAME-SESSION.NUMBER".
 std::string client_of(const std::string& id) { return id.substr(0, id.rfind('-')); }
 
 int run_cancel(const RequestOptions& o) {
