@@ -4,7 +4,7 @@
 
 #include "server/link/transport.hpp"
 
-struct _lcm_t;
+struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): LCM's own name
 
 namespace genio {
 

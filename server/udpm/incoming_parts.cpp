@@ -12,7 +12,7 @@ constexpr size_t digest_digits = 32;
 }  // namespace
 
 size_t IncomingParts::Unfinished::cost() const {
-  return sizeof(Unfinished) + parts.size() * sizeof(parts[0]) + bytes;
+  return sizeof(Unfinished) + parts.size() * sizeof(std::vector<uint8_t>) + bytes;
 }
 
 bool IncomingParts::fits_its_message(const part_t& part) const {

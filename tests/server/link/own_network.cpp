@@ -16,10 +16,10 @@ namespace genio::test {
 namespace {
 
 bool set_up(Routes routes) {
-  char name[] = "lo";
+  char loopback[IFNAMSIZ] = "lo";
   const Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   ifreq interface {};
-  std::strcpy(interface.ifr_name, name);
+  std::memcpy(interface.ifr_name, loopback, sizeof loopback);
   if (ioctl(socket.get(), SIOCGIFFLAGS, &interface) != 0) return false;
   interface.ifr_flags = short(interface.ifr_flags | IFF_UP | IFF_MULTICAST);
   if (ioctl(socket.get(), SIOCSIFFLAGS, &interface) != 0) return false;
@@ -31,7 +31,7 @@ bool set_up(Routes routes) {
     std::memcpy(&to, &in, sizeof in);
   };
   set(route.rt_dst, "224.0.0.0"), set(route.rt_genmask, "240.0.0.0");
-  route.rt_flags = RTF_UP, route.rt_dev = name;
+  route.rt_flags = RTF_UP, route.rt_dev = loopback;
   return ioctl(socket.get(), SIOCADDRT, &route) == 0;
 }
 

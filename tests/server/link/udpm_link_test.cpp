@@ -163,12 +163,15 @@ IN_OWN_NETWORK(FragmentsThatKillLcmDoNothing) {
 IN_OWN_NETWORK(WhatIsNoMessageIsDroppedAndCounted) {
   Listener listener;
   const RawSender sender;
-  const std::string number(4, '\0'), end(1, '\0');
+  const auto lcm = [](std::string_view channel, const std::string& payload) {
+    const auto made =
+        make_datagram(0, channel, std::vector<uint8_t>(payload.begin(), payload.end()));
+    return std::string(made.begin(), made.end());
+  };
   for (const std::string& bytes :
-       {std::string(), std::string("LC"), std::string(65507, 'x'), "LC02" + number + "NO_END",
-        "LC02" + number + std::string(64, 'c') + end, "LC02" + number + part_channel + end,
-        "LC02" + number + part_channel + end + "junk",
-        "LC02" + number + part_ask_channel + end + std::string(1000, '\xff')})
+       {std::string(), std::string("LC"), std::string(65507, 'x'), std::string("LC02....NO_END"),
+        lcm(std::string(64, 'c'), ""), lcm(part_channel, ""), lcm(part_channel, "junk"),
+        lcm(part_ask_channel, std::string(1000, '\xff'))})
     sender.send(bytes);
   listener.link.publish("AFTER", {});
   ASSERT_TRUE(listener.hears(1));

@@ -53,7 +53,7 @@ TEST(UdpmDatagram, AnyBytesAreReadOrDropped) {
   for (int k = 0; k < 20000; ++k) {
     std::string bytes(random() % 200, '\0');
     for (char& c : bytes) c = char(random() % 4 ? random() : 0);
-    if (k % 2) bytes = "LC02" + bytes;
+    if (k % 2) bytes.insert(0, "LC02");
     // A vector of its own, so that a sanitizer sees what is read beside it.
     const auto own = bytes_of(bytes);
     auto why = UdpmDrop::count;

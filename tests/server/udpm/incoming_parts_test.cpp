@@ -143,6 +143,28 @@ TEST_F(Incoming, PartsThatCannotBeAreDropped) {
   EXPECT_EQ(take(parts).size(), 1u);
 }
 
+TEST_F(Incoming, ChangedBytesAreTakenOrDropped) {
+  std::mt19937 random(1);
+  size_t decoded = 0;
+  for (int k = 0; k < 20000; ++k) {
+    auto bytes = encode(parts[random() % parts.size()]);
+    for (unsigned flips = 1 + random() % 4; flips > 0; --flips)
+      bytes[random() % (k % 2 ? 100 : bytes.size())] ^= uint8_t(1u << random() % 8);
+    if (random() % 8 == 0) bytes.resize(random() % bytes.size());
+    std::string why;
+    auto part = decode_checked<part_t>(bytes.data(), bytes.size(), why);
+    if (!part) continue;
+    ++decoded;
+    const auto whole = incoming.take(std::move(*part), random() % 3, now);
+    EXPECT_TRUE(!whole || whole->bytes == message.bytes);
+    now += milliseconds(1);
+    while (incoming.ask(now)) {
+    }
+    ASSERT_LE(incoming.held_bytes(), limits.unfinished_bytes);
+  }
+  EXPECT_GT(decoded, 1000u);
+}
+
 TEST_F(Incoming, PartsThatDisagreeDoNotSpoilTheMessage) {
   part_t other_count = parts[1], other_channel = parts[1], other_data = parts[0];
   other_count.count = 3, other_channel.channel = "SAMPLE2", other_data.data[0] ^= 1;
