@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "cli/command_line/command_line.hpp"
+#include "cli/service/key.hpp"
 #include "cli/service/request.hpp"
 #include "cli/service/serve.hpp"
 #include "cli/subcommands/bench.hpp"
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
           add_discover},
          {"serve", "Answer shape requests over LCM", add_serve},
          {"request", "Ask a server", add_request},
+         {"key", "Make a key that a server and its clients share", add_key},
          {"journal", "What a server accepted and answered, from its file", add_journal},
          {"bench", "Figures of merit, measured here", add_bench}}));
   } catch (const genio::InputError& e) {

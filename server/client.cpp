@@ -37,8 +37,8 @@ std::string unique_name() {
 
 }  // namespace
 
-Client::Client(const std::string& url, std::string name)
-    : link_(url), name_(name.empty() ? unique_name() : std::move(name)) {
+Client::Client(const std::string& url, std::string name, SharedKey key)
+    : link_(url, std::move(key)), name_(name.empty() ? unique_name() : std::move(name)) {
   if (!usable_client(name_))
     throw InputError(
         fmt::format("client '{}': expected 1 to 40 letters, digits, '_' or '-'", name_));

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "server/link/link.hpp"
+#include "server/seal/sealed_link.hpp"
 #include "server/wire/wire.hpp"
 
 namespace genio {
@@ -14,12 +14,14 @@ namespace genio {
 class Client {
  public:
   /// `url` as choose_url gives it; `name`: under which the replies come, 1 to 40 letters, digits,
-  /// '_' or '-' (empty: one that nobody has). Throws InputError when either cannot be used.
-  explicit Client(const std::string& url, std::string name = {});
+  /// '_' or '-' (empty: one that nobody has). With a key, what it sends is sealed, and it takes
+  /// nothing but what is sealed with the same key. Throws InputError when URL or name cannot be
+  /// used.
+  explicit Client(const std::string& url, std::string name = {}, SharedKey key = {});
 
   /// Sends the request (filling id, client and time where empty) and waits for its reply; asks
   /// again after 1, 2, 4 and at most 8 s, which a server computes once. Nothing when no reply came
-  /// in time.
+  /// in time. Throws InputError where the request is larger than any server takes.
   std::optional<command_reply_t> request(
       shape_request_t request, double timeout_s,
       const std::function<void(const progress_t&)>& progress = {});
@@ -32,9 +34,11 @@ class Client {
   const std::string& name() const { return name_; }
   /// False while nobody listens at the URL.
   bool connected() const { return link_.connected(); }
+  /// What hints at a key that differs or is missing, as a clause; see SealedLink.
+  std::string doubt() const { return link_.doubt(); }
 
  private:
-  Link link_;
+  SealedLink link_;
   std::string name_;
   int sent_ = 0;
   std::string waiting_for_;

@@ -11,7 +11,7 @@
 
 #include "forward/base/elapsed.hpp"
 #include "server/keeper.hpp"
-#include "server/link/link.hpp"
+#include "server/seal/sealed_link.hpp"
 
 namespace genio {
 namespace {
@@ -34,7 +34,7 @@ class Departures {
     messages_.push_back(std::move(message));
   }
   /// Publishes from the front until one cannot be sent.
-  void publish(Link& link) {
+  void publish(SealedLink& link) {
     while (!messages_.empty() && link.publish(messages_.front().channel, messages_.front().bytes))
       drop_first();
   }
@@ -78,7 +78,7 @@ class ServiceLoop {
         keeper_(options.journal.empty() ? nullptr : keeper_of(options.journal, observer)),
         dispatcher_(options.limits, models, lookup_in(keeper_.get())),
         pool_(nursery, options.workers),
-        link_(options.url) {
+        link_(options.url, options.key) {
     if (keeper_) resume();
     subscribe();
     waited_for_ = {pool_.descriptor()};
@@ -87,6 +87,7 @@ class ServiceLoop {
 
   void turn() {
     const bool up = link_.wait(patience_ms(), waited_for_);
+    tell_port();
     take_from_workers();
     dispatcher_.pass_deadlines(now_us());
     for (const std::string& id : dispatcher_.take_unwanted()) pool_.withdraw(id);
@@ -97,6 +98,7 @@ class ServiceLoop {
     }
     collect();
     if (status_asked_ || uptime_.seconds() >= next_status_) tell_status();
+    if (!serving_ && heard_ && pool_.alive() > 0) serving_ = true, observer_.serving(status());
     observer_.turn();
     if (up) departures_.publish(link_);
     else departures_.keep_replies();
@@ -117,6 +119,12 @@ class ServiceLoop {
   }
 
  private:
+  void tell_port() {
+    const uint16_t port = link_.local_port();
+    if (options_.connected_from && std::exchange(port_, port) != port)
+      options_.connected_from(port);
+  }
+
   void resume() {
     const auto unanswered = keeper_->unanswered();
     if (!unanswered.empty()) observer_.write(resumed_event(int64_t(unanswered.size())));
@@ -125,6 +133,7 @@ class ServiceLoop {
   }
 
   void subscribe() {
+    link_.ask_for_key_on({"GENIO_REQUEST", "GENIO_CANCEL"});
     link_.subscribe("GENIO_REQUEST", [this](const std::string&, const void* data, size_t size) {
       dispatcher_.receive_request(data, size, now_us());
     });
@@ -188,7 +197,6 @@ class ServiceLoop {
     departures_.add({"GENIO_STATUS", encode(s)});
     // Whoever hears himself is heard by others.
     if (!heard_) departures_.add({"GENIO_ASK_STATUS", {0}});
-    if (heard_ && s.workers > 0 && !std::exchange(serving_, true)) observer_.serving(s);
     if (uptime_.seconds() >= next_status_) {
       next_status_ = uptime_.seconds() + status_period;
       observer_.status(s);
@@ -202,6 +210,9 @@ class ServiceLoop {
     s.utime = now_us(), s.version = GENIO_VERSION, s.uptime_s = uptime_.seconds();
     s.workers = pool_.alive(), s.replaced = pool_.replaced();
     s.memory_mb = resident_mb();
+    const SealDrops& dropped = link_.dropped();
+    s.unsigned_dropped = dropped.unsealed, s.forged_dropped = dropped.forged;
+    s.stale_dropped = dropped.stale;
     if (!options_.hub) return s;
     const HubCounts hub = options_.hub();
     for (uint64_t drops : hub.drops) s.hub_dropped += int64_t(drops);
@@ -215,10 +226,11 @@ class ServiceLoop {
   std::unique_ptr<Keeper> keeper_;
   Dispatcher dispatcher_;
   WorkerPool pool_;
-  Link link_;
+  SealedLink link_;
   std::vector<int> waited_for_;
   Departures departures_;
   double next_status_ = 0;
+  uint16_t port_ = 0;
   bool status_asked_ = false, heard_ = false, serving_ = false;
 };
 

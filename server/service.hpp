@@ -8,12 +8,14 @@
 #include "server/dispatch/dispatcher.hpp"
 #include "server/hub/counts.hpp"
 #include "server/observe/observer.hpp"
+#include "server/seal/seal_key.hpp"
 #include "server/workers/pool.hpp"
 
 namespace genio {
 
 struct ServiceOptions {
   std::string url;  ///< as choose_url gives it
+  SharedKey key;    ///< only who seals with it may ask; null: everyone may
   DispatchLimits limits;
   WorkerLimits workers;
   /// File that keeps requests and replies, see docs/journal.md; empty: they end with the process.
@@ -21,6 +23,8 @@ struct ServiceOptions {
   Observer* observer = nullptr;  ///< is told what happens; outlives the call
   /// Told of each computation that ended with a reply.
   std::function<void(const std::string& id)> computed;
+  /// Told the port from which the service is connected to a hub, so that its own hub may prefer it.
+  std::function<void(uint16_t port)> connected_from;
   std::function<HubCounts()> hub;  ///< counts of the server's own hub, if it has one
 };
 

@@ -10,6 +10,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import urllib.error
 import urllib.request
@@ -31,12 +32,14 @@ class Manager:
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         self.socket.bind(address.replace("@", "\0") if address[0] == "@" else address)
         self.heard = []
+        threading.Thread(target=self.listen, daemon=True).start()
+
+    def listen(self):
+        while True:
+            self.heard.append(self.socket.recv(4096).decode())
 
     def wait_for(self, message, times=1):
-        end = time.monotonic() + LONG
-        while self.heard.count(message) < times:
-            self.socket.settimeout(max(0.01, end - time.monotonic()))
-            self.heard.append(self.socket.recv(4096).decode())
+        wait_until(lambda: self.heard.count(message) >= times, f"{message}: {self.heard}")
 
 
 @contextlib.contextmanager
@@ -88,7 +91,6 @@ def serves_and_tells(address):
         status = request(port, "status", timeout=10)
         assert status.returncode == 0, status.stderr
         print(f"a status {time.monotonic() - begin:.3f} s after READY=1, a process's start included")
-        assert "WATCHDOG=1" not in manager.heard[:manager.heard.index("READY=1")], manager.heard
         manager.wait_for("WATCHDOG=1", times=3)
         assert any(h.startswith("STATUS=0 running, 0 queued") for h in manager.heard), manager.heard
 
@@ -97,9 +99,10 @@ def serves_and_tells(address):
         assert figure(text, "genio_received_total") == 0, text
         answer = request(port, "--target", str(SOURCE / "data/examples/example_shape.csv"))
         assert answer.returncode == 0, answer.stderr
-        wait_until(lambda: figure(get(metrics_port)[1], "genio_replied_total") == 1, "no reply counted")
+        wait_until(lambda: figure(get(metrics_port)[1], "genio_replied_total") > 0, "no reply counted")
         text = get(metrics_port)[1]
-        assert figure(text, "genio_received_total") == 1, text
+        assert figure(text, "genio_received_total") >= 1, text  # a client asks again
+        assert figure(text, "genio_computed_total") == 1, text
         assert figure(text, "genio_hub_accepted_total") >= 3, text
         for path, host, code in [("/", None, 404), ("/metrics", "evil.example", 403)]:
             try:
@@ -122,7 +125,7 @@ def serves_and_tells(address):
     assert events[0]["url"] == f"tcpq://127.0.0.1:{port}", events[0]
     assert events[1]["status"] == "converged" and events[1]["seconds"] > 0, events[1]
     assert events[2]["finished"] == events[2]["journalled"] == events[2]["refused"] == 0, events[2]
-    assert events[2]["replied"] == 1, events[2]
+    assert events[2]["replied"] >= 1, events[2]
 
 
 def answers_with(stderr, close):

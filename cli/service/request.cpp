@@ -24,7 +24,7 @@ namespace {
 
 struct RequestOptions {
   MeasuredOptions measured;
-  std::string url, model = default_model(), prior, out, cancel_id, client;
+  std::string url, model = default_model(), prior, out, cancel_id, client, key;
   double timeout_s = 120, deadline_s = 0;
   int starts = 0;
   bool unregistered = false, json = false;
@@ -44,6 +44,16 @@ std::string sent_prior(const std::string& path) {
     throw InputError(fmt::format("--prior {}: has {} bytes; expected at most {}", path, text.size(),
                                  max_string_length));
   return text;
+}
+
+SharedKey key_of(const RequestOptions& o) {
+  return o.key.empty() ? SharedKey{} : read_key_file(o.key);
+}
+
+/// What is told when nobody answered, with what the messages that came hint at.
+std::runtime_error silence(const std::string& what, const Client& client) {
+  const std::string doubt = client.doubt();
+  return std::runtime_error(doubt.empty() ? what : fmt::format("{} ({})", what, doubt));
 }
 
 /// `model` gives the one to register with, where that is done here.
@@ -81,6 +91,7 @@ AnswerView shown(const command_reply_t& reply, const ContourFrame& frame, const 
 }
 
 int run_request(const RequestOptions& o) {
+  const SharedKey key = key_of(o);
   // The server computes; the model is read here only to register contours or to draw.
   std::optional<Model> read;
   const auto model = [&]() -> const Model& {
@@ -88,7 +99,7 @@ int run_request(const RequestOptions& o) {
     return *read;
   };
   const AskedShapes asked = asked_shapes(o, model);
-  Client client(choose_url(o.url), o.client);
+  Client client(choose_url(o.url), o.client, key);
   if (!client.connected())
     print_line(fmt::format("nobody listens on {} yet; waiting for up to {} s", choose_url(o.url),
                            o.timeout_s));
@@ -104,8 +115,9 @@ int run_request(const RequestOptions& o) {
     });
     if (told) fmt::print(stderr, "\n");
     if (!reply)
-      throw std::runtime_error(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
-                                           choose_url(o.url), o.timeout_s));
+      throw silence(fmt::format("no reply on {} within {} s; is 'genio serve' running?",
+                                choose_url(o.url), o.timeout_s),
+                    client);
     const AnswerView view = shown(*reply, frame, asked, o, model);
     if (const std::string line = registration_line(*reply); o.unregistered && !line.empty())
       print_line(line);
@@ -119,11 +131,11 @@ int run_request(const RequestOptions& o) {
 }
 
 int run_status(const RequestOptions& o) {
-  Client client(choose_url(o.url));
+  Client client(choose_url(o.url), "", key_of(o));
   const auto s = client.status(o.timeout_s);
   if (!s)
-    throw std::runtime_error(
-        fmt::format("no server on {} within {} s", choose_url(o.url), o.timeout_s));
+    throw silence(fmt::format("no server on {} within {} s", choose_url(o.url), o.timeout_s),
+                  client);
   fmt::print("{}\n", status_json(*s, o.json ? -1 : 2));
   return done;
 }
@@ -132,13 +144,13 @@ int run_status(const RequestOptions& o) {
 std::string client_of(const std::string& id) { return id.substr(0, id.rfind('-')); }
 
 int run_cancel(const RequestOptions& o) {
-  Client client(choose_url(o.url), o.client.empty() ? client_of(o.cancel_id) : o.client);
+  Client client(choose_url(o.url), o.client.empty() ? client_of(o.cancel_id) : o.client, key_of(o));
   if (!client.connected())
     throw std::runtime_error(fmt::format("nobody listens on {}", choose_url(o.url)));
   const auto reply = client.cancel(o.cancel_id, o.timeout_s);
   if (!reply)
-    throw std::runtime_error(
-        fmt::format("no answer on {} within {} s", choose_url(o.url), o.timeout_s));
+    throw silence(fmt::format("no answer on {} within {} s", choose_url(o.url), o.timeout_s),
+                  client);
   print_line(fmt::format("{}: {}{}{}", o.cancel_id, reply->status,
                          reply->message.empty() ? "" : ": ", reply->message));
   return reply->status == "cancelled" ? done : no_answer;
@@ -156,6 +168,7 @@ Runner add_request(Options& options) {
                              "--short-tendon", "--jaw-shadow", "--ignore-marks"}});
   options.add("--prior", o->prior, "What is believed before: TOML, or a CSV of EMG");
   options.add("--client", o->client, "Name under which replies come (default: one of its own)");
+  options.add("--key", o->key, "Key file of a server that asks for one (see genio key)");
   options.add("--timeout-s", o->timeout_s, "How long to wait for each reply", {.positive = true});
   options.add("--deadline-s", o->deadline_s, "Time the server may compute", {.positive = true});
   options.add("--starts", o->starts, "Descents, to find other answers that fit",
@@ -163,10 +176,10 @@ Runner add_request(Options& options) {
   options.add("--model", o->model, "Model to register with and to show in the picture");
   options.flag("--json", o->json, "One JSON object a frame on standard output");
   options.add("--out", o->out, "Folder for pictures and numbers");
-  const Options status =
-      options.subcommand("status", "What the server is doing", {"--lcm", "--timeout-s", "--json"});
+  const Options status = options.subcommand("status", "What the server is doing",
+                                            {"--lcm", "--key", "--timeout-s", "--json"});
   Options cancel = options.subcommand("cancel", "Withdraw a request of the same client",
-                                      {"--lcm", "--timeout-s", "--client"});
+                                      {"--lcm", "--key", "--timeout-s", "--client"});
   cancel.add("id", o->cancel_id, "Id of the request", {.required = true});
   options.footer("Example: genio request --target data/examples/example_shape.csv");
   return [o, status, cancel]() -> int {

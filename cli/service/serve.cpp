@@ -37,6 +37,7 @@ std::unique_ptr<Taker> taking(uint16_t port, const std::string& option) {
 std::vector<LogField> facts_of(const ServiceOptions& service, int metrics_port) {
   std::vector<LogField> facts = {{"url", service.url}};
   if (metrics_port > 0) facts.push_back({"metrics_port", int64_t(metrics_port)});
+  if (service.key) facts.push_back({"key", "asked for"});
   if (service.journal.empty())
     facts.push_back(
         {"remark", "without --journal, requests that wait are lost if this process is killed"});
@@ -53,6 +54,7 @@ Runner add_serve(Options& options) {
   auto queue = std::make_shared<int>(256);
   auto metrics_port = std::make_shared<int>(0);
   auto journal = std::make_shared<std::string>();
+  auto key = std::make_shared<std::string>();
   auto log_json = std::make_shared<bool>(false);
   options.add("--lcm", *url, "LCM URL (default: LCM_DEFAULT_URL, else tcpq://127.0.0.1:7700)");
   options.add(
@@ -66,6 +68,8 @@ Runner add_serve(Options& options) {
   options.add("--queue", *queue, "Requests that may wait", {.range = {{1, 100000}}});
   options.add("--journal", *journal,
               "File that keeps requests and replies beyond this process (default: none)");
+  options.add("--key", *key,
+              "Key file (see genio key): who has no such key may not ask (default: everyone may)");
   options.add("--metrics-port", *metrics_port,
               "Port of 127.0.0.1 for /metrics, in Prometheus' text format (default: none)",
               {.range = {{0, 65535}}});
@@ -83,6 +87,7 @@ Runner add_serve(Options& options) {
     ServiceOptions service;
     service.workers = *workers;
     service.url = choose_url(*url);
+    if (!key->empty()) service.key = read_key_file(*key);  // which the workers need not know
     service.limits.waiting = *queue;
     service.journal = *journal;
     std::unique_ptr<Hub> hub;
@@ -92,7 +97,10 @@ Runner add_serve(Options& options) {
     if (*metrics_port > 0)
       metrics = taking<MetricsEndpoint>(uint16_t(*metrics_port),
                                         fmt::format("--metrics-port {}", *metrics_port));
-    if (hub) service.hub = [&] { return hub->counts(); };
+    if (hub) {
+      service.hub = [&] { return hub->counts(); };
+      service.connected_from = [&](uint16_t port) { hub->favour(port); };
+    }
     Observer observer(
         {&log, metrics.get(), &manager, service.hub, facts_of(service, *metrics_port)});
     service.observer = &observer;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <unordered_map>
 
 #include "inverse/posterior/box_integral.hpp"
@@ -214,7 +215,12 @@ std::vector<ActingState> acting_states(const QuadraticDensity& density, const Re
   const Acts all(size_t(belief.slab.size()), true);
   if (weights.resting().size() <= few) weigh_all(weights, all);
   else visit(weights, belief, all);
-  return weights.likeliest();
+  auto states = weights.likeliest();
+  if (states.empty())
+    throw std::runtime_error(
+        "no posterior can be computed: the standard deviations of the prior are too small or too "
+        "large beside those of the data");
+  return states;
 }
 
 double prior_sd(const RestBelief& belief, Eigen::Index i) {

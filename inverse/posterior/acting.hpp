@@ -37,7 +37,8 @@ struct ActingState {
 
 /// The likeliest choices, likeliest first, with a sum of 1. All choices are weighed where they are
 /// few, else those that a Markov chain visits. Each one's weight is an integral over the forces,
-/// see log_integral(). Always the same for the same arguments.
+/// see log_integral(). Always the same for the same arguments. Throws std::runtime_error where no
+/// choice has a weight, as of numbers beyond those of a computer.
 std::vector<ActingState> acting_states(const QuadraticDensity& density, const RestBelief& belief);
 
 /// Standard deviation of unknown i before the shape is seen.

@@ -46,7 +46,10 @@ struct Arc {
 Matrix bouncing(const BoxGaussian& g, int count, int warming, std::mt19937_64& random) {
   const Eigen::Index n = g.mode.size();
   const Eigen::LLT<Matrix> factor(g.hessian);
-  if (factor.info() != Eigen::Success) throw std::invalid_argument("H is not positive definite");
+  if (factor.info() != Eigen::Success)
+    throw InputError(
+        "the posterior's curvature is not definite: the standard deviations of prior and noise lie "
+        "too far apart");
   const Vector centre = g.mode - factor.solve(g.slope);
   // z = centre + R y with y standard normal; the bounds are rows . y + offset >= 0.
   const Matrix r = factor.matrixU().solve(Matrix::Identity(n, n));

@@ -48,6 +48,11 @@ MarginalSummary summarise(const Vector& samples, const Vector& weights, double l
     double value, weight;
     bool operator<(const Weighted& other) const { return value < other.value; }
   };
+  const double whole = weights.sum();
+  if (!samples.allFinite() || !std::isfinite(whole))
+    throw InputError(
+        "the posterior has no finite samples: the standard deviations of prior and noise lie too "
+        "far apart");
   std::vector<Weighted> all;
   all.reserve(size_t(samples.size()));
   for (Eigen::Index i = 0; i < samples.size(); ++i) all.push_back({samples[i], weights[i]});
@@ -55,7 +60,6 @@ MarginalSummary summarise(const Vector& samples, const Vector& weights, double l
   std::sort(
       std::partition(all.begin(), all.end(), [&](const Weighted& w) { return w.value <= lower; }),
       all.end());
-  const double whole = weights.sum();
   MarginalSummary s{samples.dot(weights) / whole, 0, 0, all.front().value, all.back().value};
   s.sd = std::sqrt((samples.array() - s.mean).square().matrix().dot(weights) / whole);
   double below = 0;

@@ -23,7 +23,8 @@ LocalPosterior local_posterior(const PriorTerms& prior, const Vector& z, const V
 BoxGaussian density_of(const PriorTerms& prior);
 
 /// Of weighted samples: moments, and the shortest interval that holds 90 % of them. It is one-sided
-/// where the density does not fall towards a bound.
+/// where the density does not fall towards a bound. Throws InputError where samples are not finite,
+/// as numbers lost all their digits.
 struct MarginalSummary {
   double mean, median, sd, low, high;
 };

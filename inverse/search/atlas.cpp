@@ -95,7 +95,10 @@ const Atlas& AtlasCache::get(const Model& model, const Prior& prior, bool bilate
                                   [&](const AtlasMaker& m) { return m.is_for(unknowns, terms); });
   if (known != makers_.end()) makers_.splice(makers_.begin(), makers_, known);
   else makers_.emplace_front(model, still, bilateral);
-  if (makers_.size() > most_atlases) makers_.pop_back();
+  if (makers_.size() > most_atlases) {
+    if (posed_of_ == &makers_.back()) posed_of_ = nullptr;  // another may come to lie there
+    makers_.pop_back();
+  }
   AtlasMaker& maker = makers_.front();
   maker.go_on(model, ws, stop);
   if (!prior.head_pose) return maker.atlas();

@@ -71,7 +71,7 @@ std::string fault_of(const shape_request_t& r) {
                          name, longest_id);
   if (!r.stream.empty() && !usable_client(r.stream))
     return "stream: expected at most 40 letters, digits, '_' or '-'";
-  if (std::abs(r.priority) > most_priority)
+  if (r.priority < -most_priority || r.priority > most_priority)
     return fmt::format("priority must be -{0} to {0}", most_priority);
   if (const std::string fault = fault_of_frame(r); !fault.empty()) return fault;
   for (size_t k = 0; k < r.kind.size(); ++k)

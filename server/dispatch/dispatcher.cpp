@@ -117,6 +117,9 @@ void Dispatcher::accept(shape_request_t request, std::vector<uint8_t> bytes, int
   if (const auto it = entries_.find(request.id); it != entries_.end())
     return ask_again(request, it->second);
   if (answered_before(request)) return;
+  if (running_.contains(request.id))
+    return refuse(request.client, request.id,
+                  "a computation of this id was given up and has not ended yet; ask again", 1);
   if (const std::string why = why_full(bytes.size()); !why.empty())
     return refuse(request.client, request.id, why, seconds_until_free());
   AcceptedRecord record{request.id, request.client, digest_of(request), std::move(bytes), now,
@@ -177,7 +180,7 @@ void Dispatcher::drop(const std::string& id, const std::string& reason) {
   if (it == entries_.end() || it->second.state == State::answered) return;
   for (const auto& client : it->second.clients) refuse(client, id, reason, 1);
   line_.remove(id);
-  if (running_.contains(id)) unwanted_.push_back(id);
+  give_up(id);
   forget(id);
 }
 
@@ -226,7 +229,7 @@ void Dispatcher::receive_cancel(const void* data, size_t size, int64_t now) {
   Entry& entry = it->second;
   if (cancel->client != entry.clients.front())
     return refuse(cancel->client, cancel->id, "only the client that asked may withdraw a request");
-  if (!entry.cancelled && entry.state == State::running) unwanted_.push_back(cancel->id);
+  give_up(cancel->id);
   entry.cancelled = true;
   if (!line_.remove(cancel->id)) return;
   answer(entry,
@@ -243,7 +246,7 @@ void Dispatcher::pass_deadlines(int64_t now) {
   while (!deadlines_.empty() && now >= next_deadline()) {
     const std::string id = deadlines_.begin()->second;
     Entry& entry = entries_.at(id);
-    if (running_.contains(id)) unwanted_.push_back(id);
+    give_up(id);
     const bool waited = line_.remove(id);
     answer(entry, at_deadline(id, entry.best, waited), now);
   }
@@ -255,12 +258,27 @@ std::optional<Assignment> Dispatcher::next(int64_t now) {
   if (!chosen) return std::nullopt;
   Entry& entry = entries_.at(chosen->id);
   entry.state = State::running, entry.started = now, entry.number = chosen->number;
-  running_[chosen->id] = chosen->stream;
+  running_[chosen->id] = {chosen->stream};
   if (!chosen->stream.empty()) busy_.insert(chosen->stream);
   at_once_ = std::max(at_once_, running_.size());
   Assignment a{chosen->id, entry.model, encode(entry.request), 0, states_.find(chosen->stream)};
   if (entry.deadline > 0) a.deadline_s = std::max(1e-6, 1e-6 * double(entry.deadline - now));
   return a;
+}
+
+/// A computation of which nobody waits any more, if it runs.
+void Dispatcher::give_up(const std::string& id) {
+  const auto run = running_.find(id);
+  if (run != running_.end() && !std::exchange(run->second.unwanted, true)) unwanted_.push_back(id);
+}
+
+/// What ran under that id, and does not any more.
+std::optional<Dispatcher::Running> Dispatcher::end_of(const std::string& id) {
+  auto run = running_.extract(id);
+  if (run.empty()) return std::nullopt;
+  busy_.erase(run.mapped().stream);
+  std::erase(unwanted_, id);
+  return std::move(run.mapped());
 }
 
 std::vector<std::string> Dispatcher::take_unwanted() { return std::exchange(unwanted_, {}); }
@@ -281,12 +299,9 @@ void Dispatcher::keep_best(const std::string& id, command_reply_t reply) {
 
 void Dispatcher::finish(const std::string& id, command_reply_t reply, std::vector<uint8_t> state,
                         int64_t now) {
-  const auto run = running_.extract(id);
-  if (run.empty()) return;
-  if (!run.mapped().empty()) {
-    busy_.erase(run.mapped());
-    if (!state.empty()) states_.keep(run.mapped(), std::move(state));
-  }
+  const auto run = end_of(id);
+  if (!run) return;
+  if (!run->stream.empty() && !state.empty()) states_.keep(run->stream, std::move(state));
   ++tally_.computed, tally_.failed += reply.status == "failed";
   const auto it = entries_.find(id);
   if (it == entries_.end() || it->second.state != State::running) return;
@@ -298,9 +313,7 @@ void Dispatcher::finish(const std::string& id, command_reply_t reply, std::vecto
 }
 
 void Dispatcher::lost(const std::string& id, const std::string& reason, int64_t now) {
-  const auto run = running_.extract(id);
-  if (run.empty()) return;
-  busy_.erase(run.mapped());
+  if (!end_of(id)) return;
   const auto it = entries_.find(id);
   if (it == entries_.end() || it->second.state != State::running) return;
   Entry& entry = it->second;
@@ -327,7 +340,7 @@ void Dispatcher::tell(server_status_t& s) const {
 void Dispatcher::close() {
   closed_ = true;
   if (journal_) return;
-  for (const auto& [id, stream] : running_) unwanted_.push_back(id);
+  for (const auto& [id, run] : running_) give_up(id);
 }
 
 size_t Dispatcher::refuse_rest() {

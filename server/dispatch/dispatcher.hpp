@@ -95,6 +95,10 @@ class Dispatcher {
  private:
   using Entry = RequestEntry;
   using State = RequestEntry::State;
+  struct Running {
+    std::string stream;
+    bool unwanted = false;
+  };
 
   void refuse(const std::string& client, const std::string& id, const std::string& reason,
               double retry_after_s = 0);
@@ -109,6 +113,8 @@ class Dispatcher {
   std::string why_full(size_t bytes) const;
   void answer(Entry& entry, command_reply_t reply, int64_t now);
   void forget(const std::string& id);
+  void give_up(const std::string& id);
+  std::optional<Running> end_of(const std::string& id);
   std::optional<size_t> model_named(const std::string& name) const;
   double seconds_until_free() const;
 
@@ -120,7 +126,7 @@ class Dispatcher {
   WaitingLine line_;
   StreamStates states_;
   std::map<std::string, Entry> entries_;                 // by id
-  std::map<std::string, std::string> running_;           // ids and their streams
+  std::map<std::string, Running> running_;               // by id
   std::set<std::string> busy_;                           // streams of which one runs
   std::set<std::pair<int64_t, std::string>> deadlines_;  // of what is not answered
   std::vector<std::string> unwanted_;                    // running ids

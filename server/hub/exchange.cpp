@@ -12,6 +12,9 @@
 namespace genio {
 namespace {
 
+// The first turns of many floods end before it is known what they are.
+constexpr size_t favoured_messages = 8;
+
 HubDrop reason_for(HubParser::Fault fault) {
   switch (fault) {
     case HubParser::Fault::too_large:
@@ -35,48 +38,55 @@ HubExchange::HubExchange(HubTable& table) : table_(table), buffer_(table.limits(
   to_send_to_.reserve(table.limits().connections + 1);
 }
 
-void HubExchange::serve(HubConnection& c, HubTime now, HubClock::duration longest) noexcept {
+void HubExchange::read_from(HubConnection& c, HubTime now, const HubTurn& turn) noexcept {
   try {
-    if (!c.ended && c.writable) send(c, now);
-    if (!c.ended && (c.readable || !c.unread.empty())) read(c, now, longest);
+    if (!c.ended) read(c, now, turn);
   } catch (...) {  // there is nothing else to throw
     table_.drop(c, HubDrop::out_of_memory);
   }
-  pass_on(now, longest);
+  pass_on(now, turn);
+}
+
+void HubExchange::send_to(HubConnection& c, HubTime now, const HubTurn& turn) noexcept {
+  if (!c.ended) send(c, now, turn.sent_bytes);
 }
 
 /// Sends to who got a message. Those who are not reached in the time of a turn wait for theirs.
-void HubExchange::pass_on(HubTime now, HubClock::duration longest) {
-  const HubTime end = HubClock::now() + longest;
+void HubExchange::pass_on(HubTime now, const HubTurn& turn) {
+  const HubTime end = HubClock::now() + turn.time;
   bool in_time = true;
   for (HubConnection* to : to_send_to_) {
     to->to_send = false;
     if (to->ended || !in_time) continue;
-    send(*to, now);
+    send(*to, now, turn.sent_bytes);
     in_time = HubClock::now() < end;
   }
   to_send_to_.clear();
 }
 
-void HubExchange::read(HubConnection& c, HubTime now, HubClock::duration longest) {
+void HubExchange::read(HubConnection& c, HubTime now, const HubTurn& turn) {
   const std::vector<char> kept = std::exchange(c.unread, {});
   std::string_view bytes(kept.data(), kept.size());
-  if (kept.empty()) bytes = {buffer_.data(), receive(c, now)};
+  if (kept.empty()) bytes = {buffer_.data(), receive(c, now, turn.read_bytes)};
   if (bytes.empty()) return;
-  const std::string_view rest = understand(c, bytes, now, longest);
+  const std::string_view rest = understand(c, bytes, now, turn.time);
   if (c.ended) return;
   c.unread.assign(rest.begin(), rest.end());
+  c.in.had_more |= !rest.empty();
   table_.set_partial(c, now);
 }
 
 /// Bytes that came into the buffer; 0 when there are none or the other side is gone.
-size_t HubExchange::receive(HubConnection& c, HubTime now) {
+size_t HubExchange::receive(HubConnection& c, HubTime now, size_t most) {
+  c.in.had_more = false;
   if (!c.reading) return 0;
-  const ssize_t count = recv(c.socket.get(), buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+  const size_t size = std::min(most, buffer_.size());
+  const ssize_t count = recv(c.socket.get(), buffer_.data(), size, MSG_DONTWAIT);
   if (count > 0) {
     acknowledge_at_once(c.socket.get());
     table_.counters().bytes_in += size_t(count);
     c.heard = now;
+    c.in.had_more = size_t(count) == size;
     return size_t(count);
   }
   if (count == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) table_.end(c);
@@ -140,14 +150,17 @@ void HubExchange::hand_over(HubConnection& to, const std::shared_ptr<const HubMe
   }
   to.standing.backlog_bytes = to.backlog.bytes();
   const HubLimits& limits = table_.limits();
-  if (to.backlog.bytes() > limits.backlog_bytes || to.backlog.messages() > limits.backlog_messages)
+  const size_t most = limits.backlog_messages * (to.standing.favoured ? favoured_messages : 1);
+  if (to.backlog.bytes() > limits.backlog_bytes || to.backlog.messages() > most)
     table_.drop(to, HubDrop::slow_reader);
 }
 
-void HubExchange::send(HubConnection& c, HubTime now) {
+void HubExchange::send(HubConnection& c, HubTime now, size_t most) {
+  c.out.had_more = false;
   if (c.backlog.empty()) return;
-  const HubBacklog::Sent sent = c.backlog.send_to(c.socket.get(), table_.limits().sent_bytes);
+  const HubBacklog::Sent sent = c.backlog.send_to(c.socket.get(), most);
   if (sent.broken) return table_.end(c);
+  c.out.had_more = sent.bytes > 0 && !c.backlog.empty();
   HubCounts& counts = table_.counters();
   counts.bytes_out += sent.bytes;
   counts.messages_out += sent.messages;

@@ -15,6 +15,8 @@ Hub::~Hub() { flush(std::chrono::milliseconds(0)); }
 
 HubCounts Hub::counts() const { return loop_->counts(); }
 
+void Hub::favour(uint16_t port) { loop_->favour(port); }
+
 void Hub::flush(std::chrono::milliseconds longest) {
   if (!thread_.joinable()) return;
   loop_->finish(HubClock::now() + longest);

@@ -32,6 +32,12 @@ class Hub {
   /// May be called from any thread. The numbers are of one moment, a few milliseconds ago.
   HubCounts counts() const;
 
+  /// Says from which port the service itself is connected; 0: from none, as at first. This
+  /// connection has its turns first and is not displaced. While it has much to read, those who
+  /// flood the hub wait, so that what they send to the service does not crowd out others. From any
+  /// thread.
+  void favour(uint16_t port);
+
   /// Ends the hub: no connection is taken from now on. What clients had sent before is relayed, and
   /// all that waits is sent to those who read. Returns when that is done, or after `longest`, and
   /// all connections are closed then. A client counts as silent after 100 ms; one that sends on is

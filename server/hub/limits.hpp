@@ -13,7 +13,7 @@ struct HubLimits {
   size_t subscriptions = 64;                      ///< a connection
   size_t programs = 8;  ///< a connection: patterns that are more than a name with dots
   /// All connections: instructions of the programs. A publication takes up to 2 us for each.
-  size_t program_cost = 8192;
+  size_t program_cost = 4096;
   size_t backlog_bytes = 8 << 20;   ///< a connection: what waits until it reads
   size_t backlog_messages = 8192;   ///< likewise; many small ones take time to forget
   size_t queued_bytes = 64 << 20;   ///< all connections; a message that many wait for counts once

@@ -71,24 +71,27 @@ bool HubListener::keep_reserve() {
 
 HubListener::Arrival HubListener::accept() {
   for (int k = 0; k < most_failures; ++k) {
-    Descriptor taken(accept4(socket_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    sockaddr_in other{};
+    socklen_t size = sizeof other;
+    Descriptor taken(accept4(socket_.get(), reinterpret_cast<sockaddr*>(&other), &size,
+                             SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (taken) {
       set_option(taken.get(), IPPROTO_TCP, TCP_NODELAY, 1);
       set_option(taken.get(), IPPROTO_TCP, TCP_QUICKACK, 1);
-      return {Outcome::accepted, std::move(taken)};
+      return {Outcome::accepted, std::move(taken), ntohs(other.sin_port)};
     }
     if (concerns_one(errno)) continue;
     const bool nobody = errno == EAGAIN || errno == EWOULDBLOCK || !somebody_waits(socket_.get());
-    return {nobody ? Outcome::nobody : Outcome::no_descriptor, Descriptor()};
+    return {nobody ? Outcome::nobody : Outcome::no_descriptor};
   }
-  return {Outcome::nobody, Descriptor()};
+  return {Outcome::nobody};
 }
 
 HubListener::Arrival HubListener::accept_with_reserve() {
   reserve_.reset();
   Arrival arrival = accept();
   if (!keep_reserve() && arrival.outcome == Outcome::accepted) {
-    arrival = {Outcome::turned_away, Descriptor()};
+    arrival = {Outcome::turned_away};
     keep_reserve();
   }
   return arrival;

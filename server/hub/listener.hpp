@@ -14,7 +14,8 @@ class HubListener {
   enum class Outcome { accepted, nobody, turned_away, no_descriptor };
   struct Arrival {
     Outcome outcome;
-    Descriptor socket;
+    Descriptor socket = {};
+    uint16_t port = 0;  ///< at the other side
   };
   /// The next connection, if one waits.
   Arrival accept();

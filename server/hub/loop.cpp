@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -19,22 +18,14 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr uint64_t wake_number = ~uint64_t(0), listener_number = wake_number - 1;
-constexpr int most_arrivals = 32;         // in a round
-constexpr milliseconds longest_round{2};  // of turns, before new events are looked for
-// All who wait share this, so that the last of them waits no longer when there are more.
-constexpr std::chrono::microseconds shared_time{5000}, longest_turn{200}, shortest_turn{20};
-constexpr milliseconds accept_pause{100};  // when not even one can be turned away
+constexpr int most_arrivals = 32;                          // in a round
+constexpr std::chrono::microseconds longest_arrival{500};  // of them all
+constexpr std::chrono::microseconds longest_parting{500};  // with those that were dropped
+constexpr milliseconds accept_pause{100};                  // when not even one can be turned away
 // Once the hub ends:
 constexpr milliseconds last_patience{1000};  // with who reads nothing
 constexpr milliseconds last_words{100};      // what is still on its way does not pause as long
 constexpr milliseconds last_reading{500};    // from who floods
-
-/// Processor time of this thread [s]. Time in which others had the processor is nobody's fault.
-double thread_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
 
 Descriptor wake_descriptor() {
   Descriptor wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
@@ -50,6 +41,10 @@ void close_gently(int socket) {
     if (recv(socket, unread.data(), unread.size(), MSG_DONTWAIT) <= 0) break;
 }
 
+Poller::Order order_of(const HubConnection& c) {
+  return c.standing.uses_much ? Poller::Order::with_time : Poller::Order::always;
+}
+
 void earliest(std::optional<HubTime>& due, const std::optional<HubTime>& other) {
   if (other && (!due || *other < *due)) due = other;
 }
@@ -62,10 +57,11 @@ HubLoop::HubLoop(uint16_t port, const HubLimits& limits)
       wake_(wake_descriptor()),
       table_(limits),
       exchange_(table_),
+      turns_(table_, exchange_),
       poller_(table_.limits().connections + 3) {
-  waiting_.reserve(table_.limits().connections + most_arrivals + 1);
-  if (!poller_.watch(wake_.get(), wake_number, EPOLLIN, false) ||
-      !poller_.watch(listener_.descriptor(), listener_number, EPOLLIN, false))
+  if (!poller_.watch(wake_.get(), wake_number, EPOLLIN, false, Poller::Order::always) ||
+      !poller_.watch(listener_.descriptor(), listener_number, EPOLLIN, false,
+                     Poller::Order::with_time))
     throw std::runtime_error(std::string("cannot start a hub: ") + std::strerror(errno));
 }
 
@@ -77,6 +73,8 @@ void HubLoop::finish(HubTime until) noexcept {
   const uint64_t one = 1;
   [[maybe_unused]] const auto written = write(wake_.get(), &one, sizeof one);
 }
+
+void HubLoop::favour(uint16_t port) noexcept { favoured_port_ = port; }
 
 HubCounts HubLoop::counts() const {
   const std::lock_guard lock(shared_);
@@ -97,21 +95,37 @@ void HubLoop::run() noexcept {
 
 void HubLoop::turn() {
   somebody_arrives_ = false;
-  for (const epoll_event& event : poller_.wait(patience_ms(HubClock::now()))) note(event);
+  wait_for_events();
   const HubTime now = HubClock::now();
   if (accept_again_ && now >= *accept_again_) {
     accept_again_.reset();
-    poller_.watch(listener_.descriptor(), listener_number, EPOLLIN, true);
+    poller_.watch(listener_.descriptor(), listener_number, EPOLLIN, true, Poller::Order::with_time);
   }
   if (somebody_arrives_ && !until_) accept_all(now);
-  give_turns();
+  turns_.give(HubClock::now());
   settle(HubClock::now());
+}
+
+void HubLoop::wait_for_events() {
+  const HubTime begin = HubClock::now();
+  int patience = patience_ms(begin);
+  if (turns_.rests()) {
+    for (const epoll_event& event : poller_.wait_for_some(patience)) note(event);
+    patience = 0;
+    turns_.pace().slept(HubClock::now() - begin);
+  }
+  // When a rest ends all are looked at, before those of whom something is left have their turns.
+  if (turns_.rests()) return;
+  const HubTime middle = HubClock::now();
+  for (const epoll_event& event : poller_.wait_for_all(patience)) note(event);
+  turns_.pace().slept(HubClock::now() - middle);
 }
 
 /// How long nothing needs to be done unless something happens [ms]; -1: for ever.
 int HubLoop::patience_ms(HubTime now) const {
-  if (more_to_understand_) return 0;
+  if (turns_.more_to_understand() || (!turns_.rests() && table_.some_ended())) return 0;
   std::optional<HubTime> due = next_due_;
+  if (turns_.pace().rests()) earliest(due, now + turns_.pace().left());
   earliest(due, accept_again_);
   earliest(due, until_);
   if (!due) return -1;
@@ -128,25 +142,33 @@ void HubLoop::note(const epoll_event& event) {
     begin_to_finish(HubClock::now());
   } else if (HubConnection* const c = table_.find(event.data.u64)) {
     const bool gone = event.events & (EPOLLHUP | EPOLLERR);
-    c->readable = gone || event.events & EPOLLIN;
-    c->writable = event.events & EPOLLOUT;
+    c->in.ready = gone || event.events & EPOLLIN;
+    c->out.ready = event.events & EPOLLOUT;
+    c->standing.left |= bool(event.events & EPOLLRDHUP);
     if (gone && !c->reading && c->unread.empty()) table_.end(*c);
   }
 }
 
 void HubLoop::accept_all(HubTime now) {
-  for (int k = 0; k < most_arrivals; ++k) {
-    HubListener::Arrival arrival = accept_one(now);
-    if (arrival.outcome == HubListener::Outcome::nobody) return;
-    if (arrival.outcome == HubListener::Outcome::no_descriptor) return pause_accepting(now);
-    if (arrival.outcome == HubListener::Outcome::turned_away) continue;
-    try {
-      HubConnection& c = table_.admit(std::move(arrival.socket), now);
-      c.readable = c.writable = true;  // to be greeted at once
-    } catch (const std::bad_alloc&) {
-      ++table_.counters().dropped(HubDrop::out_of_memory);
-    }
+  for (int k = 0; k < most_arrivals && HubClock::now() - now < longest_arrival; ++k)
+    if (!admit_one(now)) break;
+  turns_.pace().worked(HubClock::now() - now);
+}
+
+/// False where nobody else can be taken now.
+bool HubLoop::admit_one(HubTime now) {
+  if (table_.all().size() > table_.limits().connections) remove_ended(longest_parting);
+  HubListener::Arrival arrival = accept_one(now);
+  if (arrival.outcome == HubListener::Outcome::nobody) return false;
+  if (arrival.outcome == HubListener::Outcome::no_descriptor) return pause_accepting(now), false;
+  if (arrival.outcome == HubListener::Outcome::turned_away) return true;
+  try {
+    HubConnection& c = table_.admit(std::move(arrival.socket), arrival.port, now);
+    c.in.ready = c.out.ready = true;  // to be greeted at once
+  } catch (const std::bad_alloc&) {
+    ++table_.counters().dropped(HubDrop::out_of_memory);
   }
+  return true;
 }
 
 /// Where the process has no descriptor for a newcomer, a connection makes place for it. Where there
@@ -156,7 +178,7 @@ HubListener::Arrival HubLoop::accept_one(HubTime now) {
   if (arrival.outcome != HubListener::Outcome::no_descriptor) return arrival;
   ++table_.counters().dropped(HubDrop::out_of_descriptors);
   if (table_.drop_least_useful(HubDrop::displaced, now)) {
-    close_ended();
+    remove_ended(HubClock::duration::max());
     arrival = listener_.accept();
     if (arrival.outcome != HubListener::Outcome::no_descriptor) return arrival;
   }
@@ -165,69 +187,60 @@ HubListener::Arrival HubLoop::accept_one(HubTime now) {
 
 /// Who waits would be reported without end.
 void HubLoop::pause_accepting(HubTime now) {
-  poller_.watch(listener_.descriptor(), listener_number, 0, true);
+  poller_.watch(listener_.descriptor(), listener_number, 0, true, Poller::Order::with_time);
   accept_again_ = now + accept_pause;
-}
-
-void HubLoop::give_turns() {
-  const HubTime begin = HubClock::now();
-  waiting_.clear();
-  for (auto& [id, c] : table_.all()) {
-    if (c.ended || !(c.readable || c.writable || !c.unread.empty())) continue;
-    if (!c.waiting_since) c.waiting_since = begin;
-    waiting_.emplace_back(turn_key(c.usage.at(begin), begin - *c.waiting_since), &c);
-  }
-  std::sort(waiting_.begin(), waiting_.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  const HubClock::duration turn = std::clamp<HubClock::duration>(
-      shared_time / std::max<size_t>(waiting_.size(), 1), shortest_turn, longest_turn);
-  HubTime now = begin;
-  double processor = thread_seconds();
-  for (auto& [key, c] : waiting_) {
-    c->waiting_since.reset();
-    exchange_.serve(*c, now, turn);
-    now = HubClock::now();
-    const double since = std::exchange(processor, thread_seconds());
-    c->usage.add(processor - since, now);
-    if (now - begin >= longest_round) break;
-  }
 }
 
 void HubLoop::settle(HubTime now) {
   next_due_.reset();
-  more_to_understand_ = false;
+  const bool behind = turns_.service_is_behind();
   for (auto& [id, c] : table_.all()) {
-    c.readable = c.writable = false;
+    c.in.ready = c.out.ready = false;
     const auto due = hub_due(c.standing, table_.limits());
     if (!c.ended && due && due->at <= now) table_.drop(c, due->why);
     if (!c.ended && until_) stop_reading(c, now);
-    if (!c.ended) watch(c);
-    if (c.ended) continue;
-    more_to_understand_ |= !c.unread.empty();
-    if (due) earliest(next_due_, due->at);
+    if (c.ended) forget(c);
+    else watch(c, behind, now);
+    if (!c.ended && due) earliest(next_due_, due->at);
   }
-  close_ended();
-  table_.remove_ended();
+  if (!turns_.rests()) remove_ended(longest_parting);
   const std::lock_guard lock(shared_);
   counts_ = table_.counts();
 }
 
-void HubLoop::watch(HubConnection& c) {
-  const uint32_t events =
-      (c.reading ? uint32_t(EPOLLIN) : 0u) | (c.backlog.empty() ? 0u : uint32_t(EPOLLOUT));
+void HubLoop::watch(HubConnection& c, bool behind, HubTime now) {
+  c.standing.favoured = c.port == favoured_port_;
+  const bool much = !c.standing.favoured &&
+                    ((behind && c.in.had_more) || c.usage.is_much(now, c.standing.uses_much));
+  if (much != c.standing.uses_much) {
+    forget(c);
+    c.standing.uses_much = much;
+  }
+  const uint32_t events = (c.reading ? uint32_t(EPOLLIN | EPOLLRDHUP) : 0u) |
+                          (c.backlog.empty() ? 0u : uint32_t(EPOLLOUT));
   if (c.watched == events) return;
-  if (poller_.watch(c.socket.get(), c.id, events, c.watched.has_value())) c.watched = events;
+  if (poller_.watch(c.socket.get(), c.id, events, c.watched.has_value(), order_of(c)))
+    c.watched = events;
   else table_.drop(c, HubDrop::out_of_memory);
 }
 
-/// A child of the process may hold copies of its descriptors, so closing alone is not enough.
-void HubLoop::close_ended() {
-  for (auto& [id, c] : table_.all()) {
-    if (!c.ended || !c.socket) continue;
-    poller_.forget(c.socket.get());
-    shutdown(c.socket.get(), SHUT_RDWR);
-    c.socket.reset();
+void HubLoop::forget(HubConnection& c) {
+  if (c.watched) poller_.forget(c.socket.get(), order_of(c));
+  c.watched.reset();
+}
+
+/// Removes those that were dropped, for so long and one at least. A child of the process may hold
+/// copies of its descriptors, so closing alone is not enough.
+void HubLoop::remove_ended(HubClock::duration longest) {
+  const HubTime begin = HubClock::now();
+  HubClock::duration time{0};
+  for (HubConnection* c; time < longest && (c = table_.next_ended());) {
+    forget(*c);
+    shutdown(c->socket.get(), SHUT_RDWR);
+    table_.remove(*c);
+    time = HubClock::now() - begin;
   }
+  turns_.pace().worked(time);
 }
 
 void HubLoop::begin_to_finish(HubTime now) {
@@ -238,7 +251,8 @@ void HubLoop::begin_to_finish(HubTime now) {
   }
   if (listener_.descriptor() < 0) return;  // has begun before
   accept_all(now);
-  poller_.forget(listener_.descriptor());
+  poller_.forget(listener_.descriptor(), Poller::Order::with_time);
+  turns_.pace().end();
   listener_.close();
   accept_again_.reset();
   HubLimits& limits = table_.limits();
@@ -266,12 +280,12 @@ bool HubLoop::is_done(HubTime now) const {
 
 void HubLoop::close_all() {
   listener_.close();
+  remove_ended(HubClock::duration::max());
   for (auto& [id, c] : table_.all()) {
-    if (!c.socket) continue;
     close_gently(c.socket.get());
     table_.end(c);
   }
-  table_.remove_ended();
+  remove_ended(HubClock::duration::max());
   const std::lock_guard lock(shared_);
   counts_ = table_.counts();
 }

@@ -1,22 +1,19 @@
 #pragma once
 // What a hub's thread does.
 
+#include <atomic>
 #include <mutex>
 #include <optional>
-#include <vector>
 
 #include "server/hub/exchange.hpp"
 #include "server/hub/listener.hpp"
 #include "server/hub/poller.hpp"
 #include "server/hub/table.hpp"
+#include "server/hub/take_turns.hpp"
 
 namespace genio {
 
 /// Owns all that a hub is made of. run() is for its thread; finish() and counts() are for others.
-///
-/// Turns are given to connections in the order of the time that was spent on them lately, least
-/// first (turn_key), and a round ends after some milliseconds. So who sends without end waits, and
-/// who sends now and then does not.
 class HubLoop {
  public:
   /// Throws InputError when the port is taken, std::runtime_error when the system gives no more.
@@ -29,20 +26,25 @@ class HubLoop {
   /// those who read, until `until`; then all connections are closed and run() returns.
   void finish(HubTime until) noexcept;
 
+  /// See Hub::favour.
+  void favour(uint16_t port) noexcept;
+
   uint16_t port() const { return port_; }
   HubCounts counts() const;
 
  private:
   void turn();
+  void wait_for_events();
   int patience_ms(HubTime now) const;
   void note(const epoll_event& event);
   void accept_all(HubTime now);
+  bool admit_one(HubTime now);
   HubListener::Arrival accept_one(HubTime now);
   void pause_accepting(HubTime now);
-  void give_turns();
   void settle(HubTime now);
-  void close_ended();
-  void watch(HubConnection& connection);
+  void remove_ended(HubClock::duration longest);
+  void watch(HubConnection& connection, bool behind, HubTime now);
+  void forget(HubConnection& connection);
   void begin_to_finish(HubTime now);
   void stop_reading(HubConnection& connection, HubTime now);
   bool is_done(HubTime now) const;
@@ -53,11 +55,12 @@ class HubLoop {
   Descriptor wake_;
   HubTable table_;
   HubExchange exchange_;
+  HubTurns turns_;
   Poller poller_;
-  std::vector<std::pair<double, HubConnection*>> waiting_;  // for their turn, by turn_key
   std::optional<HubTime> next_due_, accept_again_, until_, read_until_;
-  bool somebody_arrives_ = false, more_to_understand_ = false;
+  bool somebody_arrives_ = false;
 
+  std::atomic<uint16_t> favoured_port_{0};
   mutable std::mutex shared_;  // guards the two below
   std::optional<HubTime> asked_to_finish_;
   HubCounts counts_;

@@ -1,13 +1,9 @@
 #include "server/hub/standing.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace genio {
 namespace {
 
 constexpr std::chrono::milliseconds time_to_greet{100};
-constexpr double usage_half_life_s = 1, most_used_s = 0.015, waited_share = 0.25;
 constexpr double byte_s = 1e-6;  // so that the larger goes first among messages that just began
 
 double seconds(HubClock::duration d) { return std::chrono::duration<double>(d).count(); }
@@ -17,8 +13,10 @@ void earlier(std::optional<HubDue>& due, HubTime at, HubDrop why) {
 }
 
 int rank(const HubStanding& s, HubTime now) {
-  if (!s.greeted && now - s.accepted > time_to_greet) return 0;
-  return s.took_part ? 2 : 1;
+  if (s.favoured) return 4;
+  if (s.left || (!s.greeted && now - s.accepted > time_to_greet)) return 0;
+  if (!s.took_part) return 1;
+  return s.uses_much ? 2 : 3;
 }
 
 }  // namespace
@@ -39,19 +37,6 @@ bool less_useful(const HubStanding& a, const HubStanding& b, HubTime now) {
 double partial_burden(const HubStanding& s, HubTime now) {
   if (s.partial_bytes == 0) return 0;
   return double(s.partial_bytes) * (seconds(now - s.partial_began) + byte_s);
-}
-
-void HubUsage::add(double more, HubTime now) {
-  used_ = at(now) + more;
-  at_ = now;
-}
-
-double HubUsage::at(HubTime now) const {
-  return used_ * std::exp2(-seconds(now - at_) / usage_half_life_s);
-}
-
-double turn_key(double used_s, HubClock::duration waited) {
-  return std::min(used_s, most_used_s) - waited_share * seconds(waited);
 }
 
 }  // namespace genio

@@ -18,6 +18,8 @@ size_t affordable_connections(size_t wanted) {
   return std::max<size_t>(wanted, 1);
 }
 
+bool has_ended(const std::pair<const uint64_t, HubConnection>& entry) { return entry.second.ended; }
+
 }  // namespace
 
 /// The one of greatest weight; none where all weigh nothing.
@@ -36,12 +38,13 @@ HubTable::HubTable(const HubLimits& limits) : limits_(limits) {
   limits_.connections = affordable_connections(limits.connections);
 }
 
-HubConnection& HubTable::admit(Descriptor socket, HubTime now) {
+HubConnection& HubTable::admit(Descriptor socket, uint16_t port, HubTime now) {
   const auto stay = [](const auto& entry) { return !entry.second.ended; };
   const auto present = size_t(std::count_if(connections_.begin(), connections_.end(), stay));
   if (present >= limits_.connections) drop_least_useful(HubDrop::displaced, now);
   const uint64_t id = next_id_++;
-  const auto place = connections_.try_emplace(id, id, std::move(socket), limits_, held_, now).first;
+  const auto place =
+      connections_.try_emplace(id, id, std::move(socket), port, limits_, held_, now).first;
   HubConnection& connection = place->second;
   try {
     connection.backlog.push(
@@ -63,7 +66,6 @@ HubConnection* HubTable::find(uint64_t id) {
 void HubTable::end(HubConnection& c) {
   if (std::exchange(c.ended, true)) return;
   partial_ -= std::exchange(c.standing.partial_bytes, 0);
-  c.backlog.clear();
   c.standing.backlog_bytes = 0;
   c.standing.partial = false;
   c.subscriptions.clear();
@@ -75,6 +77,7 @@ void HubTable::drop(HubConnection& c, HubDrop why) {
   if (c.ended) return;
   ++counts_.dropped(why);
   end(c);
+  if (why == HubDrop::out_of_memory) c.backlog.clear();
 }
 
 HubConnection* HubTable::least_useful(HubTime now) {
@@ -113,11 +116,23 @@ void HubTable::set_partial(HubConnection& c, HubTime now) {
     else break;
 }
 
+bool HubTable::release_one_ended() {
+  for (auto& [id, c] : connections_) {
+    if (!c.ended || c.backlog.empty()) continue;
+    c.backlog.clear();
+    return true;
+  }
+  return false;
+}
+
 void HubTable::keep_queue_small() {
   const auto waiting = [](const HubConnection& k) { return double(k.backlog.bytes()); };
-  while (held_ > limits_.queued_bytes)
-    if (HubConnection* const worst = heaviest(waiting)) drop(*worst, HubDrop::slow_reader);
-    else break;
+  while (held_ > limits_.queued_bytes) {
+    if (release_one_ended()) continue;
+    HubConnection* const worst = heaviest(waiting);
+    if (!worst) break;
+    drop(*worst, HubDrop::slow_reader);
+  }
 }
 
 size_t HubTable::pattern_cost() const {
@@ -133,9 +148,16 @@ void HubTable::keep_patterns_cheap() {
     else break;
 }
 
-void HubTable::remove_ended() {
-  std::erase_if(connections_, [](const auto& entry) { return entry.second.ended; });
+HubConnection* HubTable::next_ended() {
+  const auto found = std::find_if(connections_.begin(), connections_.end(), has_ended);
+  return found == connections_.end() ? nullptr : &found->second;
 }
+
+bool HubTable::some_ended() const {
+  return std::any_of(connections_.begin(), connections_.end(), has_ended);
+}
+
+void HubTable::remove(HubConnection& ended) { connections_.erase(ended.id); }
 
 HubCounts HubTable::counts() const {
   HubCounts now = counts_;

@@ -7,15 +7,16 @@
 
 namespace genio {
 
-/// Owns the connections. Whoever is dropped loses what is held for it at once, and is removed at
-/// the end of the turn, so that references stay good until then.
+/// Owns the connections. Whoever is dropped is no longer served and is removed later, so that
+/// references stay good until the end of the turn. What waited for it is held until then, where
+/// memory is not short: many are often dropped at once, and forgetting takes time.
 class HubTable {
  public:
   explicit HubTable(const HubLimits& limits);
 
-  /// Takes a new connection; where all places are taken, the least useful one is dropped. Throws
-  /// std::bad_alloc, and the new one is closed then.
-  HubConnection& admit(Descriptor socket, HubTime now);
+  /// Takes a new connection, from that port; where all places are taken, the least useful one is
+  /// dropped. Throws std::bad_alloc, and the new one is closed then.
+  HubConnection& admit(Descriptor socket, uint16_t port, HubTime now);
   HubConnection* find(uint64_t id);
   std::map<uint64_t, HubConnection>& all() { return connections_; }
   const std::map<uint64_t, HubConnection>& all() const { return connections_; }
@@ -37,8 +38,11 @@ class HubTable {
   /// Drops those with the costliest patterns while these cost too much in all.
   void keep_patterns_cheap();
 
-  /// Removes who was dropped, and closes their sockets.
-  void remove_ended();
+  /// One that was dropped and is to be removed; nullptr where there is none.
+  HubConnection* next_ended();
+  bool some_ended() const;
+  /// Its socket is closed with it.
+  void remove(HubConnection& ended);
 
   const HubLimits& limits() const { return limits_; }
   HubLimits& limits() { return limits_; }
@@ -51,6 +55,7 @@ class HubTable {
   template <class Weight>
   HubConnection* heaviest(const Weight& weight);
   HubConnection* least_useful(HubTime now);
+  bool release_one_ended();
   size_t pattern_cost() const;
 
   HubLimits limits_;

@@ -32,6 +32,8 @@ class Link {
   /// what is there. False when the connection is down, which a later call mends.
   bool wait(int timeout_ms, std::span<const int> others = {});
   bool connected() const;
+  /// At this side of the connection to a hub; 0 where there is none.
+  uint16_t local_port() const { return transport_->local_port(); }
 
  private:
   std::unique_ptr<LinkTransport> transport_;

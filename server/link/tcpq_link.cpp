@@ -102,6 +102,15 @@ TcpqLink::TcpqLink(const std::string& url) : url_(url) {
   connect();
 }
 
+uint16_t TcpqLink::local_port() const {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  if (!connected() || getsockname(lcm_get_fileno(lcm_), reinterpret_cast<sockaddr*>(&address),
+                                  &size) != 0)
+    return 0;
+  return ntohs(address.sin_port);
+}
+
 bool TcpqLink::connected() const { return lcm_ && lcm_get_fileno(lcm_) >= 0; }
 
 void TcpqLink::create(const std::string& url) {

@@ -21,6 +21,7 @@ class TcpqLink final : public LinkTransport {
   bool publish(const std::string& channel, const std::vector<uint8_t>& bytes) override;
   bool wait(int timeout_ms, std::span<const int> others) override;
   bool connected() const override;
+  uint16_t local_port() const override;
 
  private:
   struct Subscription;

@@ -18,6 +18,7 @@ class LinkTransport {
   virtual bool publish(const std::string& channel, const std::vector<uint8_t>& bytes) = 0;
   virtual bool wait(int timeout_ms, std::span<const int> others) = 0;
   virtual bool connected() const = 0;
+  virtual uint16_t local_port() const { return 0; }
 };
 
 }  // namespace genio

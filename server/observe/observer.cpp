@@ -40,6 +40,7 @@ void Observer::stopping() {
 }
 
 void Observer::stopped(const server_status_t& last, const DrainCounts& drain) {
+  turn();
   write(stopped_event(last, drain, draining_ ? draining_->seconds() : 0));
 }
 

@@ -24,8 +24,8 @@ struct Observing {
 };
 
 /// Passes on what the service's loop tells: to the log, to scrapers of metrics, and to the manager
-/// of services. Nothing here waits or throws for what happens there. write() may be called from any
-/// thread, the rest from one.
+/// of services. Nothing here throws for what happens there, or waits for it, but for half a second
+/// in stopping(). write() may be called from any thread, the rest from one.
 class Observer {
  public:
   explicit Observer(Observing told = {}) : told_(std::move(told)) {}

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -10,13 +11,15 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
-#include <utility>
+#include <stdexcept>
 
 #include "forward/base/types.hpp"
 #include "server/base/safe_text.hpp"
 
 namespace genio {
 namespace {
+
+constexpr timeval longest_goodbye{0, 500000};
 
 /// The variable's value, which no child inherits; empty where it is not set.
 std::string take_variable(const char* name) {
@@ -44,10 +47,11 @@ ServiceManager::ServiceManager(const std::string& address, double watchdog_s)
     throw InputError(
         fmt::format("NOTIFY_SOCKET={}: expected a path, or @ and a name, of at most {} bytes",
                     escaped_text(address), sizeof sockaddr_un::sun_path - 1));
-  socket_.reset(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  socket_.reset(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   if (!socket_)
     throw std::runtime_error(
         fmt::format("NOTIFY_SOCKET={}: {}", escaped_text(address), std::strerror(errno)));
+  setsockopt(socket_.get(), SOL_SOCKET, SO_SNDTIMEO, &longest_goodbye, sizeof longest_goodbye);
 }
 
 ServiceManager ServiceManager::from_environment() {
@@ -61,19 +65,19 @@ ServiceManager ServiceManager::from_environment() {
   return ServiceManager(address, watchdog_s);
 }
 
-bool ServiceManager::send(const std::string& state) const {
+bool ServiceManager::send(const std::string& state, int flags) const {
   sockaddr_un to{};
   to.sun_family = AF_UNIX;
   std::memcpy(to.sun_path, address_.data(), address_.size());
   if (to.sun_path[0] == '@') to.sun_path[0] = 0;  // an abstract name has no end but its length
   const auto length = socklen_t(offsetof(sockaddr_un, sun_path) + address_.size());
-  return sendto(socket_.get(), state.data(), state.size(), MSG_NOSIGNAL,
+  return sendto(socket_.get(), state.data(), state.size(), flags | MSG_NOSIGNAL,
                 reinterpret_cast<const sockaddr*>(&to), length) == ssize_t(state.size());
 }
 
 void ServiceManager::settle() {
-  if (!state_.empty() && send(state_)) state_.clear();
-  if (state_.empty() && !line_.empty() && send("STATUS=" + line_)) line_.clear();
+  if (!state_.empty() && send(state_, MSG_DONTWAIT)) state_.clear();
+  if (state_.empty() && !line_.empty() && send("STATUS=" + line_, MSG_DONTWAIT)) line_.clear();
 }
 
 void ServiceManager::ready() {
@@ -84,8 +88,8 @@ void ServiceManager::ready() {
 
 void ServiceManager::stopping() {
   if (!socket_) return;
-  state_ = "STOPPING=1";
-  settle();
+  if (send("STOPPING=1", 0)) state_.clear();
+  else state_ = "STOPPING=1";
 }
 
 void ServiceManager::say(const std::string& line) {
@@ -98,7 +102,7 @@ void ServiceManager::turn(double now) {
   if (!socket_) return;
   settle();
   if (watchdog_s_ <= 0 || (last_alive_ && now - *last_alive_ < 0.5 * watchdog_s_)) return;
-  if (send("WATCHDOG=1")) last_alive_ = now;
+  if (send("WATCHDOG=1", MSG_DONTWAIT)) last_alive_ = now;
 }
 
 }  // namespace genio

@@ -9,8 +9,8 @@
 
 namespace genio {
 
-/// Tells the manager of services how this one is. Nothing here waits: what the manager does not
-/// take at once is told again on the next turn. For one thread.
+/// Tells the manager of services how this one is. Nothing here waits but stopping(): what the
+/// manager does not take at once is told again on the next turn. For one thread.
 class ServiceManager {
  public:
   /// Where nobody wants to be told.
@@ -26,7 +26,8 @@ class ServiceManager {
 
   /// From now on requests are answered.
   void ready();
-  /// The service ends on purpose.
+  /// The service ends on purpose. Waits up to half a second for a manager that reads slowly, since
+  /// few turns follow.
   void stopping();
   /// A line for people, of what the service does.
   void say(const std::string& line);
@@ -37,7 +38,7 @@ class ServiceManager {
   double watchdog_s() const { return watchdog_s_; }
 
  private:
-  bool send(const std::string& state) const;
+  bool send(const std::string& state, int flags) const;
   void settle();
 
   Descriptor socket_;

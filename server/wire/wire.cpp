@@ -1,6 +1,7 @@
 #include "server/wire/wire.hpp"
 
 #include <chrono>
+#include <cstring>
 
 namespace genio {
 
@@ -20,8 +21,10 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
     if (!read_int(length) || length < 1 || length > max_string_length + 1 ||
         size_t(length) > size - at)
       return false;
+    // LCM's strings end at their first zero byte, so that what follows would be lost.
+    const void* const end = std::memchr(data + at, 0, size_t(length));
     at += size_t(length);
-    return data[at - 1] == 0;
+    return end == data + at - 1;
   };
   for (const char* f = fields; *f; ++f) {
     bool good = true;
@@ -40,10 +43,16 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
         good = skip_string();
         break;
       case 'n':
+      case 'm': {
+        const int most = *f == 'n' ? max_array_length : int(max_message_bytes);
         good = read_int(count);
-        if (good && (count < 0 || count > max_array_length))
+        if (good && (count < 0 || count > most))
           return "an array claims " + std::to_string(count) + " entries; expected 0 to " +
-                 std::to_string(max_array_length);
+                 std::to_string(most);
+        break;
+      }
+      case 'B':
+        good = skip(size_t(count));
         break;
       case 'I':
         good = skip(4 * size_t(count));
@@ -51,16 +60,14 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields) {
       case 'D':
         good = skip(8 * size_t(count));
         break;
-      case 'B':
-        good = skip(size_t(count));
-        break;
       case 'S':
         for (int32_t i = 0; i < count && good; ++i) good = skip_string();
         break;
       default:
         return "unknown layout";
     }
-    if (!good) return "the message ends early or a length in it is wrong";
+    if (!good)
+      return "the message ends early, a length in it is wrong, or a string has a zero byte inside";
   }
   return at == size ? "" : "there are bytes after the end of the message";
 }

@@ -13,6 +13,7 @@
 #include "genio/part_ask_t.hpp"
 #include "genio/part_t.hpp"
 #include "genio/progress_t.hpp"
+#include "genio/sealed_t.hpp"
 #include "genio/server_status_t.hpp"
 #include "genio/shape_request_t.hpp"
 
@@ -22,9 +23,9 @@ inline constexpr size_t max_message_bytes = 4u << 20;
 inline constexpr int max_array_length = 20000;
 inline constexpr int max_string_length = 1 << 16;  ///< bytes
 
-/// Fields of a message in order: l int64, i int32, b int8, d double, s string, n int32 that counts
-/// the arrays after it, D double[n], I int32[n], B byte[n],
-/// S string[n].
+/// Fields of a message in order: l int64, i int32, b int8 or byte, d double, s string, n int32 that
+/// counts the arrays after it, D double[n], I int32[n], S string[n], B byte[n]. Bytes are counted
+/// by m, which may be as large as a message, in the place of n. A fixed array is written out.
 template <class T>
 struct WireLayout;
 template <>
@@ -54,12 +55,26 @@ struct WireLayout<server_status_t> {
 };
 template <>
 struct WireLayout<part_t> {
-  static constexpr const char* fields = "lssiinB";
+  static constexpr const char* fields = "lssiimB";
 };
 template <>
 struct WireLayout<part_ask_t> {
   static constexpr const char* fields = "lsnI";
 };
+template <>
+struct WireLayout<sealed_t> {
+  static constexpr const char* fields =
+      "l"
+      "bbbbbbbbbbbbbbbb"
+      "smB"
+      "bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb";
+};
+
+/// Of one message. What a seal holds may be as large as a message without one.
+template <class T>
+inline constexpr size_t most_bytes = max_message_bytes;
+template <>
+inline constexpr size_t most_bytes<sealed_t> = max_message_bytes + 1024;
 
 /// Walks the bytes after the fingerprint along `fields`; empty when they fit exactly, else what is
 /// wrong.
@@ -70,7 +85,7 @@ std::string scan_layout(const uint8_t* data, size_t size, const char* fields);
 template <class T>
 std::optional<T> decode_checked(const void* data, size_t size, std::string& why) {
   const auto* bytes = static_cast<const uint8_t*>(data);
-  if (size > max_message_bytes) return why = "the message is too large", std::nullopt;
+  if (size > most_bytes<T>) return why = "the message is too large", std::nullopt;
   if (size < 8) return why = "the message is shorter than a fingerprint", std::nullopt;
   int64_t hash = 0;
   for (int i = 0; i < 8; ++i) hash = int64_t(uint64_t(hash) << 8 | bytes[i]);

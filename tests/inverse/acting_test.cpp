@@ -236,5 +236,12 @@ TEST(ActingSamples, TruthsDrawnFromTheBeliefRankEvenly) {
   EXPECT_NEAR(told / (draws * n), acting / (draws * n), 0.03);
 }
 
+TEST(Acting, NumbersBeyondThoseOfAComputerGiveAnErrorAndNoPosterior) {
+  const double most = std::numeric_limits<double>::infinity();
+  const QuadraticDensity density{Matrix::Constant(1, 1, most), Vector::Constant(1, most),
+                                 Vector::Zero(1), Vector::Ones(1)};
+  EXPECT_THROW(acting_states(density, {Vector::Zero(1), {-1}}), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace genio

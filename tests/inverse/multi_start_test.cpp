@@ -183,5 +183,26 @@ TEST_F(MultiStart, AHeadPoseTakesNoNewAtlas) {
   EXPECT_EQ(&atlas, &cache.get(m, posed, true, ws));
 }
 
+TEST(AtlasOfAHeadPose, IsNeverThatOfAnotherPrior) {
+  const Model block = test::small_model();
+  Workspace ws(block);
+  const auto fixed = [](int tenths, bool posed) {
+    Prior prior;
+    prior.fixed["GGP_L"] = 0.1 * tenths;
+    if (posed) prior.head_pose = HeadPosePrior{1e-3, 0.02};
+    return prior;
+  };
+  // After so many others the first one is forgotten, and its place in memory may be used again.
+  for (int others = 1; others < 8; ++others) {
+    AtlasCache cache;
+    cache.get(block, fixed(1, true), false, ws);
+    for (int k = 0; k < others; ++k) cache.get(block, fixed(2 + k, false), false, ws);
+    const double last = 0.1 * (1 + others) / block.muscles[0].max_force;
+    EXPECT_NEAR(cache.get(block, fixed(1 + others, true), false, ws).entries.at(0).unknowns[0],
+                last, 1e-9)
+        << others;
+  }
+}
+
 }  // namespace
 }  // namespace genio

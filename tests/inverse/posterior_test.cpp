@@ -203,6 +203,16 @@ TEST(ActingSummary, ReachesRestUnlessTheMuscleSurelyActs) {
   EXPECT_EQ(rest.force.high, 0);
 }
 
+TEST(Marginals, SamplesThatAreNoNumbersAreRefused) {
+  // Sorting them would go beyond their ends.
+  Vector samples = Vector::LinSpaced(1000, 0, 1), weights = Vector::Ones(1000);
+  for (Eigen::Index i = 0; i < 1000; i += 3) samples[i] = std::nan("");
+  EXPECT_THROW(summarise(samples, weights, 0, 1), InputError);
+  EXPECT_THROW(summarise_acting(samples, weights, 1), InputError);
+  weights[7] = std::nan("");
+  EXPECT_THROW(summarise(Vector::Ones(1000), weights, 0, 1), InputError);
+}
+
 TEST(UnseenDirections, NameWhatTradesForWhat) {
   // The data see only 2 z0 + z1; a third command is seen well.
   Matrix j(2, 3);

@@ -146,6 +146,18 @@ TEST(Link, NothingIsPrintedWhereNobodyListens) {
   EXPECT_TRUE(Client(url).connected());
 }
 
+// A million points once reset the connection, and the client waited out its time.
+TEST(Link, ARequestThatNoServerTakesIsRefusedBeforeItIsSent) {
+  const Hub hub(0);
+  Client client("tcpq://127.0.0.1:" + std::to_string(hub.port()));
+  shape_request_t r{};
+  r.point_count = 1000000;
+  for (auto* v : {&r.x_mm, &r.y_mm, &r.z_mm, &r.sigma_mm}) v->resize(size_t(r.point_count));
+  r.kind.resize(size_t(r.point_count));
+  EXPECT_THROW(client.request(r, 60), InputError);
+  EXPECT_TRUE(client.connected());
+}
+
 TEST(Link, AServerThatComesLaterIsFound) {
   auto first = std::make_unique<Hub>(0);
   const uint16_t port = first->port();

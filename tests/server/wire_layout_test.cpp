@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,7 +15,8 @@ namespace genio {
 namespace {
 
 struct Field {
-  std::string type, name, count;  // count: the field that holds an array's length; empty: no array
+  // count: an array's length, or the field that holds it; empty: no array
+  std::string type, name, count;
 };
 
 std::vector<Field> fields_of(const std::filesystem::path& file) {
@@ -33,25 +35,34 @@ std::vector<Field> fields_of(const std::filesystem::path& file) {
 /// As WireLayout writes it. Fails the test where it cannot: a type that it has no letter for, or an
 /// array whose length is not the count before it.
 std::string layout_of(const std::vector<Field>& fields) {
-  const std::map<std::string, char> scalars = {
-      {"int64_t", 'l'}, {"int32_t", 'i'}, {"int8_t", 'b'}, {"double", 'd'}, {"string", 's'}};
+  const std::map<std::string, char> scalars = {{"int64_t", 'l'}, {"int32_t", 'i'}, {"int8_t", 'b'},
+                                               {"byte", 'b'},    {"double", 'd'},  {"string", 's'}};
   const std::map<std::string, char> arrays = {
-      {"double", 'D'}, {"int32_t", 'I'}, {"byte", 'B'}, {"string", 'S'}};
-  const auto counts = [&](const std::string& name) {
-    return std::any_of(fields.begin(), fields.end(),
-                       [&](const Field& f) { return f.count == name; });
+      {"double", 'D'}, {"int32_t", 'I'}, {"string", 'S'}, {"byte", 'B'}};
+  // Bytes have a letter of their own for their count: other arrays must not be counted by it.
+  const auto counts = [&](const std::string& name, bool bytes) {
+    return std::any_of(fields.begin(), fields.end(), [&](const Field& f) {
+      return f.count == name && (f.type == "byte") == bytes;
+    });
   };
   std::string layout, last_count;
   for (const Field& f : fields) {
-    const auto& letters = f.count.empty() ? scalars : arrays;
+    const bool fixed = !f.count.empty() && std::isdigit(static_cast<unsigned char>(f.count[0]));
+    const auto& letters = f.count.empty() || fixed ? scalars : arrays;
     const auto it = letters.find(f.type);
     if (it == letters.end()) {
       ADD_FAILURE() << f.name << ": a layout has no letter for " << f.type;
       continue;
     }
+    if (fixed) {
+      layout.append(size_t(std::stoi(f.count)), it->second);
+      continue;
+    }
     EXPECT_TRUE(f.count.empty() || f.count == last_count) << f.name;
-    if (counts(f.name)) last_count = f.name;
-    layout += counts(f.name) ? 'n' : it->second;
+    const bool n = counts(f.name, false), m = counts(f.name, true);
+    EXPECT_FALSE(n && m) << f.name << " counts bytes and others";
+    if (n || m) last_count = f.name;
+    layout += n ? 'n' : m ? 'm' : it->second;
   }
   return layout;
 }
@@ -64,7 +75,8 @@ const std::map<std::string, std::string> layouts = {
     {"ack_t", WireLayout<ack_t>::fields},
     {"server_status_t", WireLayout<server_status_t>::fields},
     {"part_t", WireLayout<part_t>::fields},
-    {"part_ask_t", WireLayout<part_ask_t>::fields}};
+    {"part_ask_t", WireLayout<part_ask_t>::fields},
+    {"sealed_t", WireLayout<sealed_t>::fields}};
 
 TEST(WireLayouts, EachIsThatOfItsLcmFile) {
   size_t files = 0;

@@ -46,6 +46,19 @@ TEST(Wire, ClaimedLengthsAreNotBelieved) {
   }
 }
 
+TEST(Wire, AZeroByteInsideAStringIsRefusedSinceNoReaderOfLcmSeesWhatFollows) {
+  for (const size_t at : {0, 1, 2}) {
+    shape_request_t r = sample_request();
+    r.id = "abc", r.kind = {"abc", "abc"};
+    auto bytes = encode(r);
+    std::string why;
+    ASSERT_TRUE(decode_checked<shape_request_t>(bytes.data(), bytes.size(), why));
+    bytes[8 + 8 + 4 + at] = 0;  // fingerprint, time, length of the id
+    EXPECT_FALSE(decode_checked<shape_request_t>(bytes.data(), bytes.size(), why));
+    EXPECT_NE(why.find("zero byte"), why.npos) << why;
+  }
+}
+
 TEST(Wire, RandomDamageNeverCrashes) {
   const auto good = encode(sample_request());
   std::mt19937 bits(1);

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -21,7 +22,8 @@ constexpr std::chrono::seconds last_flush{3};
 /// Serves until the other end of the socket is closed.
 void be_a_server(std::vector<ServedModel>& models, const ServerSetup& setup, int socket) {
   const Nursery nursery(worker_of(models, 2000));
-  Hub hub(local_tcpq_port(setup.url));
+  std::optional<Hub> hub;
+  if (const uint16_t port = local_tcpq_port(setup.url)) hub.emplace(port);
   ServiceOptions options;
   options.url = setup.url, options.journal = setup.journal;
   options.workers.count = setup.workers;
@@ -38,7 +40,7 @@ void be_a_server(std::vector<ServedModel>& models, const ServerSetup& setup, int
     stop = true;
   });
   serve(nursery, identities(models), options, stop);
-  hub.flush(last_flush);
+  if (hub) hub->flush(last_flush);
   watching.join();
 }
 

@@ -16,7 +16,7 @@ void CocontractionTerm::add_rows(const std::vector<Unknown>& unknowns, PriorRows
 CocontractionTerm CocontractionTerm::read(const TomlReader& file) {
   const auto* node = file.root().get("cocontraction");
   if (!node) return {};
-  return {read_normal(file, *node, "cocontraction")};
+  return {read_activation(file, *node, "cocontraction")};
 }
 
 }  // namespace genio

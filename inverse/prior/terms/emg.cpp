@@ -55,10 +55,7 @@ EmgTerm EmgTerm::read(const TomlReader& file) {
   EmgTerm term;
   for (const auto& [key, value] : *node->as_table()) {
     const std::string name(key.str());
-    const Normal activation = read_normal(file, value, name);
-    if (activation.mean < 0 || activation.mean > 1)
-      file.fail(value, fmt::format("'{}': 'mean' must be an activation from 0 to 1", name));
-    term.emg[name] = activation;
+    term.emg[name] = read_activation(file, value, name);
   }
   if (term.emg.empty()) file.fail(*node, "'emg' has no muscle");
   return term;

@@ -1,6 +1,9 @@
 #include "server/journal/sqlite/database.hpp"
 
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "server/journal/sqlite/statement.hpp"
 
@@ -22,11 +25,20 @@ std::string immutable_uri(const std::string& path) {
   return uri + "?immutable=1";
 }
 
+/// SQLite would let other users read the file, and hold locks on it. The files that it makes beside
+/// have the same mode. Only of a new file: closing one that is there would end this process's locks
+/// on it.
+void make_private(const std::string& path) {
+  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (fd >= 0) close(fd);
+}
+
 }  // namespace
 
 void Database::Close::operator()(sqlite3* db) const { sqlite3_close(db); }
 
 Database::Database(const std::string& path, Open how) {
+  if (how == Open::created && path != ":memory:") make_private(path);
   sqlite3* db = nullptr;
   const bool immutable = how == Open::immutable;
   const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE |

@@ -15,7 +15,7 @@ class Database {
  public:
   enum class Open {
     existing,   ///< to read and write, or to read where the file may not be written
-    created,    ///< the same, made where there is none
+    created,    ///< the same, made where there is none, for its owner alone
     immutable,  ///< to read, without looking for other programs: nobody may write
   };
   /// `path` is absolute, or ":memory:". Throws StorageError.

@@ -1,15 +1,10 @@
 """A server with a shared key, and clients with it, without it, and with another."""
-import subprocess
 import unittest
 
 from genio_client import Client, NoReply, read_frames
 from running import EXAMPLE, GENIO, PATIENCE_S, Serving
 
-KNOWS_KEYS = "--key" in subprocess.run([GENIO, "serve", "--help"], capture_output=True, text=True,
-                                       check=False).stdout
 
-
-@unittest.skipUnless(KNOWS_KEYS, "this genio knows no keys")
 class Key(Serving):
     def make_key(self, name):
         self.output_of(GENIO, "key", self.folder / name)

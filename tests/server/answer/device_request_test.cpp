@@ -138,7 +138,7 @@ TEST_F(DeviceRequest, SensorsAreRegisteredAndInAnotherOrderRefused) {
 TEST_F(DeviceRequest, NumbersThatPlaceItWhereNoTongueIsGiveNoVerdict) {
   const shape_request_t request = device_request(1);
   shape_request_t away = placed_as(answer(request), request);
-  away.shift_x_mm += 40;
+  away.shift_x_mm += 40, away.starts = 1;
   const command_reply_t reply = answer(away);
   EXPECT_TRUE(nlohmann::json::parse(reply.registration)["forced"]);
   EXPECT_NE(reply.verdict, "explained") << reply.message;
@@ -156,19 +156,23 @@ TEST_F(DeviceRequest, APlaceIsKnownExactlyOrWithinBoth) {
     EXPECT_NE(answer(exact).message.find("shift_sd_mm and tilt_sd_deg"), std::string::npos)
         << wrong;
   }
-  exact.shift_sd_mm = 1;
+  exact.shift_sd_mm = exact.tilt_sd_deg = 1e300, exact.starts = 1;
+  EXPECT_NE(answer(exact).status, "");
+  exact.shift_sd_mm = 1, exact.tilt_sd_deg = 0;
   EXPECT_NE(answer(exact).message.find("expected both above 0"), std::string::npos);
 }
 
 TEST_F(DeviceRequest, PlacedSurfacePointsAreScaledAcrossAsWell) {
-  // The surface at rest in twice the numbers, and in the model's own.
-  shape_request_t twice = test::blank_request(), own = twice;
-  twice.frame = "placed", twice.scale = 0.5;
+  // The surface at rest in larger numbers, and in the model's own.
+  shape_request_t larger = test::blank_request();
+  larger.starts = 1;
+  shape_request_t own = larger;
+  larger.frame = "placed", larger.scale = 0.8;
   for (size_t k = 0; k < model().surface.size(); k += 3) {
     const Vec3 p = 1e3 * model().mesh.nodes[size_t(model().surface[k][0])];
-    put_point(own, p, "surface", 1), put_point(twice, 2 * p, "surface", 1);
+    put_point(own, p, "surface", 1), put_point(larger, 1.25 * p, "surface", 1);
   }
-  const command_reply_t placed = answer(twice), reply = answer(own);
+  const command_reply_t placed = answer(larger), reply = answer(own);
   ASSERT_EQ(placed.status, "converged") << placed.message;
   EXPECT_NEAR(placed.rms_mm, reply.rms_mm, 1e-3);
   EXPECT_FALSE(nlohmann::json::parse(placed.registration)["doubtful"]);

@@ -101,14 +101,26 @@ TEST_F(PriorRequest, HostileTextsGetShortReasons) {
   }
 }
 
-TEST_F(PriorRequest, AbsurdNumbersEndInAReply) {
+TEST_F(PriorRequest, NumbersThatNobodyMeansAreRefusedByLine) {
   for (const char* text :
        {"effort_sd = 1e-300", "effort_sd = 1e300", "symmetry_sd = 5e-324",
-        "[cocontraction]\nmean = 1e308\nsd = 1e-300", "[head_pose]\nshift_sd_mm = 1e300",
+        "[cocontraction]\nmean = 1e308\nsd = 0.1", "[head_pose]\nshift_sd_mm = 1e300",
         "[emg.GGP]\nmean = 1\nsd = 1e-300", "[head_pose]\nturn_sd_deg = 1e300",
-        "[parameter.\"elasticity.a10\"]\nmean = 1000\nsd = 1e300"}) {
-    const command_reply_t reply = answer(request(text), 20);
-    EXPECT_NE(reply.status, "") << text;
+        "[parameter.\"elasticity.a10\"]\nmean = 1000\nsd = 1e300"})
+    EXPECT_EQ(complaint(text).find("prior, line "), 0u) << complaint(text);
+}
+
+TEST_F(PriorRequest, WhatLosesAllDigitsEndsInAReply) {
+  for (const char* text :
+       {"effort_sd = 1e-9", "effort_sd = 1e12", "[cocontraction]\nmean = 1\nsd = 1e-9",
+        "[head_pose]\nshift_sd_mm = 1e12", "[head_pose]\nturn_sd_deg = 1e12",
+        "[head_pose]\nshift_sd_mm = 1e-9", "[emg.GGP]\nmean = 1\nsd = 1e-9",
+        "[parameter.\"elasticity.a10\"]\nmean = 1000\nsd = 1e-9",
+        "[parameter.\"elasticity.a10\"]\nmean = 1000\nsd = 1e12",
+        "effort_sd = 1e-9\n[emg.GGP]\nmean = 1\nsd = 1e12"}) {
+    shape_request_t r = request(text);
+    r.starts = 1;
+    const command_reply_t reply = answer(r, 20);
     EXPECT_TRUE(reply.status == "converged" || !reply.message.empty()) << text;
     for (const double force : reply.force_N) EXPECT_TRUE(std::isfinite(force)) << text;
   }

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <thread>
 
@@ -420,6 +421,49 @@ TEST_F(Dispatch, ProgressGoesToThoseWhoAsked) {
   ASSERT_TRUE(p) << why;
   EXPECT_EQ(p->iteration, 3);
   EXPECT_EQ(p->rms_mm, 1);
+}
+
+TEST_F(Dispatch, PrioritiesBeyondTheirRangeAreRefused) {
+  for (const int priority :
+       {11, -11, std::numeric_limits<int>::max(), std::numeric_limits<int>::min(), 10, -10}) {
+    shape_request_t r{};
+    r.id = std::to_string(priority), r.client = "c", r.priority = priority;
+    ask(r);
+    const auto sent = replies();
+    if (std::abs(double(priority)) <= 10) {
+      EXPECT_TRUE(sent.empty()) << priority;
+    } else {
+      ASSERT_EQ(sent.size(), 1u) << priority;
+      EXPECT_NE(sent[0].reply.message.find("priority"), std::string::npos);
+    }
+  }
+}
+
+TEST_F(Dispatch, ThatARunningOneIsUnwantedIsToldOnceAndNotAfterItsEnd) {
+  ask("a", "c", 1), ask("b", "c", 1), next(), next();
+  cancel("a");
+  EXPECT_EQ(dispatcher.take_unwanted(), std::vector<std::string>{"a"});
+  cancel("b"), cancel("b"), answer("b", 1);
+  dispatcher.pass_deadlines(now_us() + 2'000'000);
+  EXPECT_TRUE(dispatcher.take_unwanted().empty());
+}
+
+TEST_F(Dispatch, AnIdIsNotComputedAgainWhileWhatWasGivenUpUnderItStillRuns) {
+  ask("a"), next();
+  dispatcher.drop("a", "the disk is full");
+  replies();
+  shape_request_t other{};
+  other.id = "a", other.client = "c", other.label = "another question";
+  ask(other);
+  EXPECT_EQ(next(), "");
+  const auto sent = replies();
+  ASSERT_EQ(sent.size(), 1u);
+  EXPECT_EQ(sent[0].reply.status, "refused");
+  EXPECT_GT(sent[0].reply.retry_after_s, 0);
+  answer("a", 1);
+  EXPECT_TRUE(replies().empty());  // of the question that was given up
+  ask(other);
+  EXPECT_EQ(next(), "a");
 }
 
 }  // namespace

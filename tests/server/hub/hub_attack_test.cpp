@@ -230,5 +230,37 @@ TEST_F(HubUnderAttack, FloodsOfTinyMessagesToManyDelayNobody) {
   expect_service();
 }
 
+TEST_F(HubUnderAttack, FloodsOfTwoHundredDelayNobodyAndLeaveTheProcessorToOthers) {
+  auto attackers = clients(200);
+  const std::vector<char> large = tcpq::publication("HONEST_NOT", std::string(65536, 'x'));
+  std::vector<size_t> sent(attackers.size());
+  const Meanwhile flooding([&] {
+    for (size_t k = 0; k < attackers.size(); ++k) {
+      const ssize_t n = attackers[k].send_some({large.data() + sent[k], large.size() - sent[k]});
+      sent[k] = (sent[k] + size_t(std::max<ssize_t>(n, 0))) % large.size();
+    }
+  });
+  expect_service();
+  EXPECT_EQ(hub.counts().connections, 202u);
+}
+
+TEST_F(HubUnderAttack, WhoSendsAndLeavesAgainAndAgainDisplacesNobodyWhoStays) {
+  std::vector<RawClient> ring(200);
+  std::vector<char> many;
+  for (int k = 0; k < 200; ++k) {
+    const auto one = tcpq::publication("A", "");
+    many.insert(many.end(), one.begin(), one.end());
+  }
+  size_t next = 0;
+  const Meanwhile connecting([&] {
+    RawClient& c = ring[next++ % ring.size()] = RawClient();
+    c.connect(hub.port());
+    c.greet();
+    c.send_some({many.data(), many.size()});
+  });
+  ASSERT_TRUE(eventually([&] { return hub.counts().accepted > 400; }));
+  expect_service();
+}
+
 }  // namespace
 }  // namespace genio

@@ -120,6 +120,13 @@ void RawClient::sip(size_t bytes) {
   [[maybe_unused]] const auto count = recv(socket_.get(), buffer.data(), bytes, MSG_DONTWAIT);
 }
 
+uint16_t RawClient::port() const {
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size);
+  return ntohs(address.sin_port);
+}
+
 bool RawClient::sees_the_end(milliseconds longest) {
   const auto end = Clock::now() + longest;
   while (!ended_ && Clock::now() < end) {

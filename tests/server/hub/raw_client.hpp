@@ -47,6 +47,8 @@ class RawClient {
   /// Reads once, at most that much, and throws it away.
   void sip(size_t bytes);
   void close() { socket_.reset(); }
+  /// The port at this side.
+  uint16_t port() const;
 
  private:
   bool fill(milliseconds longest);

@@ -42,16 +42,28 @@ TEST(HubDue, EveryDebtHasItsTimeAndTheFirstCounts) {
   EXPECT_EQ(due->why, HubDrop::stalled);
 }
 
-TEST(LessUseful, FirstWithoutGreetingThenWithoutPartThenTheIdlest) {
+TEST(LessUseful, FirstWithoutGreetingThenWithoutPartThenTheBusiestThenTheIdlest) {
   const HubTime now = start + milliseconds(1000);
   const HubStanding silent = standing(false, false, milliseconds(900));
   const HubStanding greeted = standing(true, false, milliseconds(800));
+  HubStanding floods = standing(true, true, milliseconds(999));
+  floods.uses_much = true;
   const HubStanding idle = standing(true, true, milliseconds(100));
   const HubStanding busy = standing(true, true, milliseconds(700));
-  const HubStanding* order[] = {&silent, &greeted, &idle, &busy};
-  for (int a = 0; a < 4; ++a)
-    for (int b = 0; b < 4; ++b)
+  HubStanding service = standing(true, true, milliseconds(0));
+  service.favoured = true;
+  const HubStanding* order[] = {&silent, &greeted, &floods, &idle, &busy, &service};
+  for (int a = 0; a < 6; ++a)
+    for (int b = 0; b < 6; ++b)
       EXPECT_EQ(less_useful(*order[a], *order[b], now), a < b) << a << ' ' << b;
+}
+
+TEST(LessUseful, WhoLeftMakesPlaceWhateverItDidBefore) {
+  const HubTime now = start + milliseconds(1000);
+  HubStanding left = standing(true, true, milliseconds(999));
+  left.left = true;
+  EXPECT_TRUE(less_useful(left, standing(true, false, milliseconds(0)), now));
+  EXPECT_FALSE(less_useful(standing(true, false, milliseconds(0)), left, now));
 }
 
 TEST(LessUseful, ANewcomerHasTimeToGreet) {
@@ -72,25 +84,6 @@ TEST(PartialBurden, WhoHoldsMuchForLongWeighsMost) {
   EXPECT_EQ(partial_burden(nothing, now), 0);
   large.partial_began = old.partial_began = now;
   EXPECT_GT(partial_burden(large, now), partial_burden(old, now));
-}
-
-TEST(HubUsage, HalvesEverySecond) {
-  HubUsage usage(start);
-  const double newcomer = usage.at(start);
-  EXPECT_GT(newcomer, 0);
-  usage.add(8e-3, start);
-  EXPECT_NEAR(usage.at(start), newcomer + 8e-3, 1e-9);
-  EXPECT_NEAR(usage.at(start + milliseconds(1000)), (newcomer + 8e-3) / 2, 1e-9);
-  usage.add(1e-3, start + milliseconds(2000));
-  EXPECT_NEAR(usage.at(start + milliseconds(3000)), (newcomer + 8e-3) / 8 + 5e-4, 1e-9);
-}
-
-TEST(TurnKey, WhoUsedLeastIsNextUnlessAnotherHasWaitedLonger) {
-  const milliseconds none(0);
-  EXPECT_LT(turn_key(1e-3, none), turn_key(2e-3, none));
-  EXPECT_LT(turn_key(2e-3, milliseconds(8)), turn_key(1e-3, none));
-  // Whoever has waited for 50 ms goes before every newcomer, whatever it used.
-  EXPECT_LT(turn_key(10, milliseconds(50)), turn_key(HubUsage(start).at(start), none));
 }
 
 }  // namespace

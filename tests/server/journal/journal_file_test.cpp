@@ -67,6 +67,19 @@ TEST_F(JournalFiles, AnotherDatabaseIsNoJournal) {
   expect_refused("is no journal of Genio");
 }
 
+TEST_F(JournalFiles, NoOtherUserMayReadOrLockThem) {
+  const mode_t mask = umask(0);
+  Journal journal(path);
+  journal.accept(entry_of(1));
+  journal.sync();
+  umask(mask);
+  for (const char* ending : {"", "-wal", "-shm", ".lock"}) {
+    struct stat status {};
+    ASSERT_EQ(stat((path + ending).c_str(), &status), 0) << ending;
+    EXPECT_EQ(status.st_mode & 0777, 0600u) << ending;
+  }
+}
+
 TEST_F(JournalFiles, AFolderAndAPipeAreNoJournals) {
   fs::create_directory(path);
   expect_refused("is a folder");

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include "forward/base/elapsed.hpp"
 #include "forward/base/types.hpp"
@@ -63,6 +65,23 @@ TEST(ServiceManager, OneThatDoesNotReadHoldsNobodyUpAndHearsLater) {
   EXPECT_EQ(socket.next(), "READY=1");
   EXPECT_EQ(socket.next(), "STATUS=line 9999");
   EXPECT_EQ(socket.next(), "");
+}
+
+TEST(ServiceManager, TheEndIsToldToOneThatReadsSlowly) {
+  ManagerSocket socket;
+  ServiceManager manager(socket.address(), 0);
+  for (int k = 0; k < 10000; ++k) manager.say("line " + std::to_string(k));
+  std::string last;
+  std::thread reading([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (const Stopwatch watch; watch.seconds() < 20 && last != "STOPPING=1";) {
+      const std::string next = socket.next();
+      if (!next.empty()) last = next;
+    }
+  });
+  manager.stopping();  // no turn follows
+  reading.join();
+  EXPECT_EQ(last, "STOPPING=1");
 }
 
 TEST(ServiceManager, OneThatIsGoneIsNoHarm) {
