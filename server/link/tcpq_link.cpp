@@ -105,8 +105,8 @@ TcpqLink::TcpqLink(const std::string& url) : url_(url) {
 uint16_t TcpqLink::local_port() const {
   sockaddr_in address{};
   socklen_t size = sizeof address;
-  if (!connected() || getsockname(lcm_get_fileno(lcm_), reinterpret_cast<sockaddr*>(&address),
-                                  &size) != 0)
+  if (!connected() ||
+      getsockname(lcm_get_fileno(lcm_), reinterpret_cast<sockaddr*>(&address), &size) != 0)
     return 0;
   return ntohs(address.sin_port);
 }
