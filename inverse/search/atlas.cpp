@@ -68,13 +68,13 @@ bool AtlasMaker::add(const Model& model, const Vector& z, const Positions& start
 bool AtlasMaker::go_on(const Model& model, Workspace& ws, const StopAtlas& stop) {
   if (atlas_.entries.empty() && !add(model, rest_, model.rest, ws)) left_.clear();
   while (!left_.empty() && !(stop && stop())) {
-    const auto [muscle, level] = left_.back();
+    const Single next = left_.back();
     left_.pop_back();
     Vector z = rest_;
-    z[muscle] = levels[level];
-    const Atlas::Entry& from = level == 0 ? atlas_.entries.front() : atlas_.entries.back();
+    z[next.muscle] = levels[next.level];
+    const Atlas::Entry& from = next.level == 0 ? atlas_.entries.front() : atlas_.entries.back();
     if (!add(model, z, Positions(from.shape), ws))
-      std::erase_if(left_, [&](const Single& s) { return s.muscle == muscle; });
+      std::erase_if(left_, [&](const Single& s) { return s.muscle == next.muscle; });
   }
   return left_.empty();
 }
