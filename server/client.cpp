@@ -26,7 +26,7 @@ class Patience {
   double seconds() const { return watch_.seconds(); }
 
  private:
-  const Stopwatch watch_;
+  Stopwatch watch_;
   double ask_at_ = 0, pause_ = first_pause_s;
 };
 

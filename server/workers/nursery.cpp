@@ -117,7 +117,7 @@ class NurseryLife {
 
 }  // namespace
 
-Nursery::Nursery(std::function<void(int)> work) {
+Nursery::Nursery(const std::function<void(int)>& work) {
   int pair[2];
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair) != 0)
     throw std::runtime_error(std::string("cannot make a socket for workers: ") + strerror(errno));

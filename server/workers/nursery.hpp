@@ -22,7 +22,7 @@ class Nursery {
  public:
   /// `work(socket)` is what a worker does; it ends when that returns. Throws std::runtime_error
   /// where the system has no process left.
-  explicit Nursery(std::function<void(int socket)> work);
+  explicit Nursery(const std::function<void(int socket)>& work);
   ~Nursery();
   Nursery(const Nursery&) = delete;
   Nursery& operator=(const Nursery&) = delete;
