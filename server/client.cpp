@@ -17,12 +17,12 @@ constexpr double first_pause_s = 1, longest_pause_s = 8;  // before asking again
 /// When a question is to be sent again, as it or its answer may be lost.
 class Patience {
  public:
-  bool is_due() {
-    if (watch_.seconds() < ask_at_) return false;
+  bool is_due() const { return watch_.seconds() >= ask_at_; }
+  void asked() {
     ask_at_ = watch_.seconds() + pause_;
     pause_ = std::min(2 * pause_, longest_pause_s);
-    return true;
   }
+  void ask_in(double seconds) { ask_at_ = watch_.seconds() + seconds; }
   double seconds() const { return watch_.seconds(); }
 
  private:
@@ -78,8 +78,12 @@ std::optional<command_reply_t> Client::request(
     throw InputError(fmt::format("the request takes {} bytes; expected at most {}", bytes.size(),
                                  max_message_bytes));
   for (Patience patience; !reply_ && patience.seconds() < timeout_s;) {
-    if (patience.is_due()) link_.publish("GENIO_REQUEST", bytes);
+    if (patience.is_due() && link_.publish("GENIO_REQUEST", bytes)) patience.asked();
     link_.wait(20);
+    // A full queue, or a server that stops, is none for long.
+    if (reply_ && reply_->status == "refused" && reply_->retry_after_s > 0 &&
+        patience.seconds() + reply_->retry_after_s < timeout_s)
+      patience.ask_in(reply_->retry_after_s), reply_.reset();
   }
   progress_ = {};
   // A refusal is none of the replies that are kept; the id may be another client's.
@@ -97,7 +101,7 @@ std::optional<command_reply_t> Client::cancel(const std::string& id, double time
   waiting_for_ = id;
   reply_.reset();
   for (Patience patience; !reply_ && patience.seconds() < timeout_s;) {
-    if (patience.is_due()) link_.publish("GENIO_CANCEL", encode(c));
+    if (patience.is_due() && link_.publish("GENIO_CANCEL", encode(c))) patience.asked();
     link_.wait(20);
   }
   return reply_;

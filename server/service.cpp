@@ -18,7 +18,7 @@ namespace {
 
 constexpr double status_period = 1, longest_end = 5;  // [s]
 constexpr int longest_turn_ms = 100;
-constexpr size_t most_undelivered = 64u << 20;  // bytes, while nobody can be reached
+constexpr size_t most_undelivered = 64u << 20;  // bytes; replies are asked for again
 
 double resident_mb() {
   double size = 0, resident = 0;
@@ -32,6 +32,7 @@ class Departures {
   void add(OutgoingMessage message) {
     bytes_ += message.bytes.size();
     messages_.push_back(std::move(message));
+    while (bytes_ > most_undelivered) drop_first();
   }
   /// Publishes from the front until one cannot be sent.
   void publish(SealedLink& link) {
@@ -45,7 +46,6 @@ class Departures {
       if (m.channel.starts_with("GENIO_REPLY.")) kept.push_back(std::move(m));
     messages_.clear(), bytes_ = 0;
     for (OutgoingMessage& m : kept) add(std::move(m));
-    while (bytes_ > most_undelivered) drop_first();
   }
 
  private:
@@ -112,7 +112,7 @@ class ServiceLoop {
     while (!keeper_ && dispatcher_.running() > 0 && ending.seconds() < longest_end) turn();
     dispatcher_.refuse_rest();
     collect();
-    if (keeper_) keeper_->finish(), collect();
+    if (keeper_) keeper_->finish(), collect(), collect();
     departures_.publish(link_);
     const server_status_t last = status();
     observer_.stopped(last, drain_counts(told, last, bool(keeper_)));

@@ -85,7 +85,13 @@ void Dispatcher::ask_again(const shape_request_t& request, Entry& entry) {
     ++tally_.replied;
     return outbox_.reply(client, entry.reply);
   }
-  if (!entry.asked_by(client)) entry.clients.push_back(client);
+  if (entry.asked_by(client)) return;
+  if (entry.clients.size() >= limits_.clients)
+    return refuse(client, request.id,
+                  fmt::format("{} clients wait for that request already; ask again later",
+                              entry.clients.size()),
+                  seconds_until_free());
+  entry.clients.push_back(client);
 }
 
 bool Dispatcher::answered_before(const shape_request_t& request) {
@@ -262,7 +268,9 @@ std::optional<Assignment> Dispatcher::next(int64_t now) {
   if (!chosen->stream.empty()) busy_.insert(chosen->stream);
   at_once_ = std::max(at_once_, running_.size());
   Assignment a{chosen->id, entry.model, encode(entry.request), 0, states_.find(chosen->stream)};
-  if (entry.deadline > 0) a.deadline_s = std::max(1e-6, 1e-6 * double(entry.deadline - now));
+  a.deadline_s = limits_.longest_s;
+  if (entry.deadline > 0)
+    a.deadline_s = std::clamp(1e-6 * double(entry.deadline - now), 1e-6, limits_.longest_s);
   return a;
 }
 
@@ -307,8 +315,11 @@ void Dispatcher::finish(const std::string& id, command_reply_t reply, std::vecto
   if (it == entries_.end() || it->second.state != State::running) return;
   Entry& entry = it->second;
   usual_seconds_ += newest_counts * (1e-6 * double(now - entry.started) - usual_seconds_);
-  // What is cut short by a stop in good order is taken up again from the journal.
-  if (closed_ && journal_ && reply.status == "cancelled" && !entry.cancelled) return;
+  // What is cut short by a stop in good order is taken up again from the journal, or asked again.
+  if (closed_ && reply.status == "cancelled" && !entry.cancelled) {
+    if (!journal_) drop(id, "the server stopped; ask again");
+    return;
+  }
   answer(entry, std::move(reply), now);
 }
 

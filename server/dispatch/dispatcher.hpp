@@ -23,7 +23,7 @@ struct Assignment {
   std::string id;
   size_t model = 0;              ///< index
   std::vector<uint8_t> request;  ///< a shape_request_t, encoded
-  double deadline_s = 0;         ///< that are left; 0: no deadline
+  double deadline_s = 0;         ///< that it may compute
   std::vector<uint8_t> start;    ///< where the last frame of its stream ended; empty: unknown
 };
 

@@ -78,7 +78,9 @@ HubListener::Arrival HubListener::accept() {
     if (taken) {
       set_option(taken.get(), IPPROTO_TCP, TCP_NODELAY, 1);
       set_option(taken.get(), IPPROTO_TCP, TCP_QUICKACK, 1);
-      return {Outcome::accepted, std::move(taken), ntohs(other.sin_port)};
+      // Others of 127.0.0.0/8 may have the same port.
+      const bool usual = other.sin_addr.s_addr == htonl(INADDR_LOOPBACK);
+      return {Outcome::accepted, std::move(taken), usual ? ntohs(other.sin_port) : uint16_t(0)};
     }
     if (concerns_one(errno)) continue;
     const bool nobody = errno == EAGAIN || errno == EWOULDBLOCK || !somebody_waits(socket_.get());

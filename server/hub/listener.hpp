@@ -15,7 +15,7 @@ class HubListener {
   struct Arrival {
     Outcome outcome;
     Descriptor socket = {};
-    uint16_t port = 0;  ///< at the other side
+    uint16_t port = 0;  ///< at the other side, if that is 127.0.0.1
   };
   /// The next connection, if one waits.
   Arrival accept();

@@ -209,7 +209,7 @@ void HubLoop::settle(HubTime now) {
 }
 
 void HubLoop::watch(HubConnection& c, bool behind, HubTime now) {
-  c.standing.favoured = c.port == favoured_port_;
+  c.standing.favoured = c.port != 0 && c.port == favoured_port_;
   const bool much = !c.standing.favoured &&
                     ((behind && c.in.had_more) || c.usage.is_much(now, c.standing.uses_much));
   if (much != c.standing.uses_much) {

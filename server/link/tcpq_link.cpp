@@ -22,6 +22,8 @@ namespace genio {
 
 namespace {
 
+constexpr time_t longest_stall_s = 5;
+
 constexpr int longest_pause_ms = 100;  // between two tries to connect
 
 /// True where the socket becomes ready for `events` in time.
@@ -151,7 +153,13 @@ void TcpqLink::tune() {
   const int fd = lcm_get_fileno(lcm_);
   if (fd < 0) return;
   const int one = 1;
-  if (fd != tuned_fd_) setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+  if (fd != tuned_fd_) {
+    setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+    // LCM would wait without end for a hub that stops in the middle of a message.
+    const timeval longest{longest_stall_s, 0};
+    setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
+    setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest);
+  }
   setsockopt(fd, IPPROTO_TCP, TCP_QUICKACK, &one, sizeof one);
   tuned_fd_ = fd;
 }

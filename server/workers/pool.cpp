@@ -19,7 +19,7 @@ namespace genio {
 namespace {
 
 constexpr double watch_period = 0.5;  // [s]
-constexpr double short_life = 1;      // of a worker that is not replaced at once [s]
+constexpr double short_life = 10;     // of a worker that is not replaced at once [s]
 constexpr double again_after = 1;     // after a birth that failed [s]
 
 void listen_to(int epoll, int descriptor, pid_t pid, uint32_t events, int how) {
@@ -185,11 +185,14 @@ void WorkerPool::meet(const NurseryEvent& event, double now, std::vector<WorkerE
     return;
   }
   --expected_;
-  if (event.kind == NurseryEvent::Kind::not_born) {
+  // Where this process has no descriptor left, the worker's is lost.
+  if (event.kind == NurseryEvent::Kind::born && event.socket < 0) nursery_.kill(event.pid);
+  if (event.kind == NurseryEvent::Kind::not_born || event.socket < 0) {
     bear_from_ = now + again_after;
     return;
   }
   Worker& worker = workers_[event.pid];
+  worker.inherited_mb = own_memory_mb(event.pid);
   worker.socket = event.socket, worker.born = worker.heard = worker.watched = now;
   listen_to(epoll_, worker.socket, event.pid, EPOLLIN, EPOLL_CTL_ADD);
 }
@@ -199,7 +202,7 @@ void WorkerPool::watch(pid_t pid, Worker& worker, double now) {
   worker.watched = now;
   if (now - worker.heard > limits_.silence_s)
     return condemn(pid, worker, fmt::format("no sign of life for {:.0f} s", limits_.silence_s));
-  if (own_memory_mb(pid) > limits_.memory_mb)
+  if (own_memory_mb(pid) - worker.inherited_mb > limits_.memory_mb)
     condemn(pid, worker, fmt::format("it took more than {:.0f} MB", limits_.memory_mb));
 }
 

@@ -55,6 +55,7 @@ class WorkerPool {
     std::vector<uint8_t> leaving = {};  ///< not sent yet
     std::string id = {};                ///< at hand; empty: idle
     double born = 0, heard = 0, watched = 0;
+    double inherited_mb = 0;     ///< memory that it was born with
     std::string condemned = {};  ///< why it was killed
   };
   void send(pid_t pid, Worker& worker, const WorkerMessage& message);

@@ -100,9 +100,20 @@ void limit_memory(double mb) {
 void run_worker(int socket, const std::function<void(const Assignment&, WorkerPipe&)>& answer,
                 const std::function<void(const WorkerPipe&)>& idle) {
   WorkerPipe pipe(socket);
+  bool prepares = true;
+  const auto prepare = [&] {
+    // What cannot be prepared is met again, and answered for, when a request needs it.
+    try {
+      if (prepares) idle(pipe);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {
+      prepares = false;
+    }
+  };
   try {
     for (;;) {
-      if (idle && !pipe.called(leisure_ms)) idle(pipe);
+      if (idle && !pipe.called(leisure_ms)) prepare();
       answer(pipe.wait(), pipe);
     }
   } catch (const std::bad_alloc&) {

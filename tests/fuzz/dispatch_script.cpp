@@ -165,7 +165,7 @@ class DispatchPlay {
     return true;
   }
 
-  void finish(std::string id, const char* status) {
+  void finish(const std::string& id, const char* status) {
     command_reply_t reply{};
     reply.id = id, reply.status = status, reply.verdict = "good";
     computed_ += running_.erase(id) > 0;

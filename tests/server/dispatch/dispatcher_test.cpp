@@ -234,6 +234,21 @@ TEST_F(Dispatch, AtItsDeadlineAWholeAnswerIsWorthMoreThanAStepOfTheNextStart) {
   EXPECT_EQ(sent[0].reply.rms_mm, 0.5);
 }
 
+// Each of them would get every step and the reply.
+TEST_F(Dispatch, OnlySoManyClientsWaitForOneRequest) {
+  for (int k = 0; k < 20; ++k) ask("a", "c" + std::to_string(k));
+  EXPECT_EQ(replies().size(), 4u);
+  EXPECT_EQ(counts().refused, 4);
+  next(), answer("a", 1);
+  EXPECT_EQ(replies().size(), 16u);
+}
+
+TEST_F(Dispatch, WithoutADeadlineARequestComputesForSoLongAtMost) {
+  ask("a"), ask("b", "c", 1e6);
+  EXPECT_EQ(dispatcher.next(now_us())->deadline_s, DispatchLimits().longest_s);
+  EXPECT_EQ(dispatcher.next(now_us())->deadline_s, DispatchLimits().longest_s);
+}
+
 // A queue of requests with names of megabytes once took 1.26 GB.
 TEST_F(Dispatch, WhatWaitsIsBoundedInBytes) {
   Dispatcher small({.waiting = 100, .waiting_bytes = 5000}, models);

@@ -81,7 +81,7 @@ class Pool : public testing::Test {
     ADD_FAILURE() << id << " did not end";
     return {WorkerEvent::Kind::progress, "none"};
   }
-  const Stopwatch clock;
+  Stopwatch clock;
   std::unique_ptr<Nursery> nursery;
   std::unique_ptr<WorkerPool> pool;
 };
