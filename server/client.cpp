@@ -64,6 +64,17 @@ Client::Client(const std::string& url, std::string name, SharedKey key)
   });
 }
 
+void Client::ask(const char* channel, const std::vector<uint8_t>& bytes, double timeout_s) {
+  for (Patience patience; !reply_ && patience.seconds() < timeout_s;) {
+    if (patience.is_due() && link_.publish(channel, bytes)) patience.asked();
+    link_.wait(20);
+    // A full queue, or a server that stops, is none for long.
+    if (reply_ && reply_->status == "refused" && reply_->retry_after_s > 0 &&
+        patience.seconds() + reply_->retry_after_s < timeout_s)
+      patience.ask_in(reply_->retry_after_s), reply_.reset();
+  }
+}
+
 std::optional<command_reply_t> Client::request(
     shape_request_t request, double timeout_s,
     const std::function<void(const progress_t&)>& progress) {
@@ -77,14 +88,7 @@ std::optional<command_reply_t> Client::request(
   if (bytes.size() > max_message_bytes)
     throw InputError(fmt::format("the request takes {} bytes; expected at most {}", bytes.size(),
                                  max_message_bytes));
-  for (Patience patience; !reply_ && patience.seconds() < timeout_s;) {
-    if (patience.is_due() && link_.publish("GENIO_REQUEST", bytes)) patience.asked();
-    link_.wait(20);
-    // A full queue, or a server that stops, is none for long.
-    if (reply_ && reply_->status == "refused" && reply_->retry_after_s > 0 &&
-        patience.seconds() + reply_->retry_after_s < timeout_s)
-      patience.ask_in(reply_->retry_after_s), reply_.reset();
-  }
+  ask("GENIO_REQUEST", bytes, timeout_s);
   progress_ = {};
   // A refusal is none of the replies that are kept; the id may be another client's.
   if (reply_ && reply_->status != "refused") {
@@ -100,10 +104,7 @@ std::optional<command_reply_t> Client::cancel(const std::string& id, double time
   c.utime = now_us(), c.id = id, c.client = name_;
   waiting_for_ = id;
   reply_.reset();
-  for (Patience patience; !reply_ && patience.seconds() < timeout_s;) {
-    if (patience.is_due() && link_.publish("GENIO_CANCEL", encode(c))) patience.asked();
-    link_.wait(20);
-  }
+  ask("GENIO_CANCEL", encode(c), timeout_s);
   return reply_;
 }
 

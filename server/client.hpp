@@ -38,6 +38,9 @@ class Client {
   std::string doubt() const { return link_.doubt(); }
 
  private:
+  /// Publishes until reply_ is there or the time is over.
+  void ask(const char* channel, const std::vector<uint8_t>& bytes, double timeout_s);
+
   SealedLink link_;
   std::string name_;
   std::string session_;  ///< of this object: another one of the same name has other ids

@@ -1,15 +1,13 @@
 #include "server/service.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <fstream>
 #include <memory>
 #include <utility>
 
 #include "forward/base/elapsed.hpp"
+#include "forward/base/process_memory.hpp"
 #include "server/keeper.hpp"
 #include "server/seal/sealed_link.hpp"
 
@@ -19,12 +17,6 @@ namespace {
 constexpr double status_period = 1, longest_end = 5;  // [s]
 constexpr int longest_turn_ms = 100;
 constexpr size_t most_undelivered = 64u << 20;  // bytes; replies are asked for again
-
-double resident_mb() {
-  double size = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> size >> resident;
-  return 1e-6 * resident * double(sysconf(_SC_PAGESIZE));
-}
 
 /// Messages that are to be published, in their order.
 class Departures {
@@ -209,7 +201,7 @@ class ServiceLoop {
     dispatcher_.tell(s);
     s.utime = now_us(), s.version = GENIO_VERSION, s.uptime_s = uptime_.seconds();
     s.workers = pool_.alive(), s.replaced = pool_.replaced();
-    s.memory_mb = resident_mb();
+    s.memory_mb = 1e-6 * double(own_memory().resident);
     const SealDrops& dropped = link_.dropped();
     s.unsigned_dropped = dropped.unsealed, s.forged_dropped = dropped.forged;
     s.stale_dropped = dropped.stale;

@@ -2,22 +2,11 @@
 # The command line as a user meets it: exit statuses, one-line errors, JSON keys, files.
 set -u
 genio=$1 source=$2
+tests=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
-failed=0
-# expect STATUS WORD COMMAND...: exit status, and WORD somewhere in what it prints
-expect() {
-  local status=$1 word=$2; shift 2
-  "$@" >out 2>err; local got=$?
-  if [ $got -ne "$status" ] || ! grep -qF -- "$word" out err; then
-    echo "FAILED: $* -> $got, expected $status and '$word'"; cat out err; failed=1
-  fi
-  # An error of ours is one line.
-  if [ "$status" -eq 2 ] && grep -q '^genio:' err && [ "$(grep -c . err)" -ne 1 ]; then
-    echo "FAILED: $* prints more than one line"; cat err; failed=1
-  fi
-}
+. "$tests/expect.sh"
 example=$source/data/examples/example_shape.csv
 expect 0 '"min_corner_jacobian_ratio"' "$genio" info --json
 expect 0 '"volume_change_percent"' "$genio" forward --force GGP=2 --json --out shape

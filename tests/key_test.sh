@@ -3,6 +3,7 @@
 # usage: key_test.sh GENIO SOURCE
 set -u
 genio=$1 example=$2/data/examples/example_shape.csv
+tests=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 cd "$work" || exit 1
 url=tcpq://127.0.0.1:$((20000 + RANDOM % 20000))
@@ -13,18 +14,8 @@ finish() {
   rm -rf "$work"
 }
 trap finish EXIT
-failed=0
-# expect STATUS WORD COMMAND...: exit status, and WORD somewhere in what it prints
-expect() {
-  local status=$1 word=$2; shift 2
-  "$@" >out 2>err; local got=$?
-  if [ $got -ne "$status" ] || ! grep -qF -- "$word" out err; then
-    echo "FAILED: $* -> $got, expected $status and '$word'"; cat out err; failed=1
-  fi
-  if [ "$status" -eq 2 ] && [ "$(grep -c . err)" -ne 1 ]; then
-    echo "FAILED: $* prints more than one line"; cat err; failed=1
-  fi
-}
+errors=one_line
+. "$tests/expect.sh"
 (umask 0; "$genio" key lab.key 2>/dev/null) || { echo "FAILED: genio key"; failed=1; }
 [ "$(stat -c %a lab.key)" = 600 ] || { echo "FAILED: lab.key has mode $(stat -c %a lab.key)"; failed=1; }
 grep -qE '^[0-9a-f]{64}$' lab.key && [ "$(wc -l <lab.key)" -eq 1 ] || { echo "FAILED: lab.key"; failed=1; }

@@ -3,15 +3,7 @@
 # 5 % of the packets each way. Every request must end in a whole reply.
 set -eu
 genio=$1 source=$2 requests=${3:-20}
-if [ "${GENIO_IN_NAMESPACE:-}" != yes ]; then
-  enter=(unshare --net)
-  [ "$(id -u)" -eq 0 ] || enter=(unshare --user --map-root-user --net)
-  if ! "${enter[@]}" true 2>/dev/null; then
-    echo "SKIPPED: this machine does not let us make a network namespace"
-    exit 77
-  fi
-  GENIO_IN_NAMESPACE=yes exec "${enter[@]}" "$0" "$@"
-fi
+. "$(dirname "$0")/own_network.sh"
 fail() { echo "FAILED: $*"; cat "$work/log" "$work/error" 2>/dev/null; exit 1; }
 work=$(mktemp -d)
 unshare --net sleep 600 & other=$!

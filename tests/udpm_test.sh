@@ -2,15 +2,7 @@
 # The service over LCM's UDP multicast, in a network namespace of its own.
 set -eu
 genio=$1 source=$2
-if [ "${GENIO_IN_NAMESPACE:-}" != yes ]; then
-  enter=(unshare --net)
-  [ "$(id -u)" -eq 0 ] || enter=(unshare --user --map-root-user --net)
-  if ! "${enter[@]}" true 2>/dev/null; then
-    echo "SKIPPED: this machine does not let us make a network namespace"
-    exit 77
-  fi
-  GENIO_IN_NAMESPACE=yes exec "${enter[@]}" "$0" "$@"
-fi
+. "$(dirname "$0")/own_network.sh"
 ip link set lo up multicast on
 ip route add 224.0.0.0/4 dev lo
 url='udpm://239.255.76.67:7667?ttl=0'

@@ -17,6 +17,7 @@
 #include "report/answers/answer_table.hpp"
 #include "runs/frames/frame.hpp"
 #include "runs/results/answer_record.hpp"
+#include "server/answer/message_place.hpp"
 #include "server/client.hpp"
 
 namespace genio::cli {
@@ -71,7 +72,10 @@ AskedShapes asked_shapes(const RequestOptions& o, const std::function<const Mode
   MeasuredOptions as_seen = o.measured;
   as_seen.as_seen = true;
   Measured m = read_measured(as_seen, model, print_line);
-  if (m.head_pose) put_place(m.transform.value_or(Similarity()), *m.head_pose, asked.alike);
+  if (m.head_pose) {
+    asked.alike.frame = "placed";
+    put_place({m.transform.value_or(Similarity()), *m.head_pose}, asked.alike);
+  }
   asked.frames = std::move(m.frames), asked.noise = m.noise;
   asked.registered = std::move(m.registration);
   return asked;

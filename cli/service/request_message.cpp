@@ -4,15 +4,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "forward/base/thin.hpp"
 #include "runs/frames/frame.hpp"
+#include "server/answer/message_place.hpp"
 
 namespace genio::cli {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// Names that stand joined by '+'.
 std::vector<std::string> parted(const std::string& joined) {
@@ -68,13 +66,6 @@ void put_frame(const ContourFrame& frame, double noise, shape_request_t& r) {
   r.default_sigma_mm = 1e3 * noise;
 }
 
-void put_place(const Similarity& s, const HeadPosePrior& head, shape_request_t& r) {
-  r.frame = "placed";
-  r.scale = s.scale, r.tilt_deg = degrees * s.angle;
-  r.shift_x_mm = 1e3 * s.shift[0], r.shift_z_mm = 1e3 * s.shift[1];
-  r.shift_sd_mm = 1e3 * head.shift_sd, r.tilt_sd_deg = degrees * head.turn_sd;
-}
-
 void put_palate(const std::vector<Vec2>& trace, shape_request_t& r) {
   r.frame = "device";
   for (const Vec2& q : thin(trace, size_t(max_array_length))) {
@@ -86,7 +77,7 @@ void put_palate(const std::vector<Vec2>& trace, shape_request_t& r) {
 
 std::optional<Similarity> place_in_reply(const command_reply_t& r) {
   if (r.registration.empty() || !std::isfinite(r.scale)) return {};
-  return Similarity{r.scale, r.tilt_deg / degrees, 1e-3 * Vec2(r.shift_x_mm, r.shift_z_mm)};
+  return place_in(r).transform;
 }
 
 std::string registration_line(const command_reply_t& r) {

@@ -14,9 +14,6 @@ namespace genio::cli {
 /// Puts time, label and points of a frame into a request; `noise` [m] of points without their own.
 void put_frame(const ContourFrame& frame, double noise, shape_request_t& request);
 
-/// Says where the points of a recording lie beside the model, and how well that is known.
-void put_place(const Similarity& transform, const HeadPosePrior& head, shape_request_t& request);
-
 /// Says that the points are in a device's frame, where the palate's trace, (x, z) [m], lies so; it
 /// may have no points.
 void put_palate(const std::vector<Vec2>& trace, shape_request_t& request);

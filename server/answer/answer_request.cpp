@@ -53,7 +53,7 @@ Target target_of(const Model& model, const ContourFrame& frame, double noise) {
 /// What recordings in a device's frame have beside others: the head's place is estimated along, and
 /// the model is another speaker's.
 void allow_for(const RequestPlacement& placement, Prior& prior, InferOptions& options) {
-  if (!prior.head_pose && placement.head.shift_sd > 0) prior.head_pose = placement.head;
+  if (!prior.head_pose && placement.place.head.shift_sd > 0) prior.head_pose = placement.place.head;
   options.model_error = ModelError().of_another_speaker();
 }
 
@@ -108,6 +108,7 @@ RequestAnswer answer_request(const Model& model, const shape_request_t& request,
         best.wall_s = watch.seconds();
         fill_answer(state.line, so_far, best);
         fill_placement(laid.placement, best);
+        withhold_doubtful_verdict(laid.placement, best);
         hooks.improved(std::move(best));
       };
     if (deadline_s > 0) options.deadline_s = deadline_s - watch.seconds();
@@ -117,7 +118,7 @@ RequestAnswer answer_request(const Model& model, const shape_request_t& request,
     reply.ipopt_iterations = a.iterations;
     reply.factorizations = a.factorizations;
     fill_answer(state.line, a, reply);
-    fill_placement(laid.placement, reply);
+    withhold_doubtful_verdict(laid.placement, reply);
     if (a.status == InferStatus::converged) answer.state = {request.prior, a.activations, a.shape};
   } catch (const std::bad_alloc&) {
     throw;

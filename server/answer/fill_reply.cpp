@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "server/base/safe_text.hpp"
 
@@ -96,19 +95,15 @@ void fill_answer(const TongueLine& line, const Answer& a, command_reply_t& reply
 }
 
 void fill_placement(const std::optional<RequestPlacement>& placement, command_reply_t& reply) {
-  const double none = std::nan("");
-  reply.scale = reply.tilt_deg = reply.shift_x_mm = reply.shift_z_mm = none;
-  reply.shift_sd_mm = reply.tilt_sd_deg = none;
   if (!placement) return;
-  constexpr double degrees = 180 / std::numbers::pi;
-  const Similarity& s = placement->transform;
+  put_place(placement->place, reply);
   reply.registration = registration_json(placement->record)
                            .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  reply.scale = s.scale, reply.tilt_deg = degrees * s.angle;
-  reply.shift_x_mm = 1e3 * s.shift[0], reply.shift_z_mm = 1e3 * s.shift[1];
-  reply.shift_sd_mm = 1e3 * placement->head.shift_sd;
-  reply.tilt_sd_deg = degrees * placement->head.turn_sd;
-  if (!placement->record.forced || reply.verdict != "explained") return;
+}
+
+void withhold_doubtful_verdict(const std::optional<RequestPlacement>& placement,
+                               command_reply_t& reply) {
+  if (!placement || !placement->record.forced || reply.verdict != "explained") return;
   reply.verdict = "none";
   reply.message = fmt::format("no verdict, as the place of the points is doubtful: {} ({})",
                               faults_text(placement->record.judgement), reply.message);

@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "inverse/recording/base/curve_pieces.hpp"
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/session/scan_session.hpp"
 #include "server/answer/request_points.hpp"
+#include "server/dispatch/admission.hpp"
 
 namespace genio {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr const char* promised_axes = "+x+z";  // back and up
 
 bool on_surface(const ContourPoint& p) { return p.kind == "surface"; }
@@ -45,15 +44,15 @@ ContourFrame placed(const Model& model, const ContourFrame& frame, const Similar
 RequestPlacement placement_by_numbers(const Model& model, const shape_request_t& r,
                                       const ContourFrame& frame) {
   RequestPlacement placement;
-  placement.transform = {r.scale, r.tilt_deg * degree, 1e-3 * Vec2(r.shift_x_mm, r.shift_z_mm)};
-  placement.head = {1e-3 * r.shift_sd_mm, r.tilt_sd_deg * degree};
-  const auto [shift, turn] = placement.head;
+  placement.place = place_in(r);
+  const auto& [transform, head] = placement.place;
+  const auto [shift, turn] = head;
   if (!(shift >= 0 && turn >= 0 && std::isfinite(shift + turn) && (shift > 0) == (turn > 0)))
     throw InputError(
         "shift_sd_mm and tilt_sd_deg: expected both above 0, or both 0 where the place is known");
   ContourFile file;
   file.frames = {frame};
-  Registration known{.transform = placement.transform};
+  Registration known{.transform = transform};
   known.shift_sd = Vec2::Constant(shift);
   placement.record = {.judgement = judge(model, known, midsagittal_points(file), false),
                       .units = "mm",
@@ -61,7 +60,7 @@ RequestPlacement placement_by_numbers(const Model& model, const shape_request_t&
                       .points_order = points_order(file),
                       .by_palate = false,
                       .given = true};
-  file.frames = {placed(model, frame, placement.transform)};
+  file.frames = {placed(model, frame, transform)};
   if (const auto scan = surface_points(file); !scan.empty())
     if (const Judgement j = judge_scan(model, scan, {}, false);
         placement.record.judgement.faults.empty()) {
@@ -90,14 +89,13 @@ RequestPlacement placement_by_registration(const Model& model, const shape_reque
   ReadOptions said;
   said.axes = promised_axes;
   const AlignedRecording a = align(model, reach, std::move(target), palate, said);
-  RequestPlacement placement{a.registration.transform, head_pose_of(a.registration),
+  RequestPlacement placement{{a.registration.transform, head_pose_of(a.registration)},
                              record_of(a, palate.has_value())};
   // Who sends points says which way they are turned, and is no witness to it.
   if (a.turned_fits_better)
     placement.record.judgement.faults.emplace_back(
         "turned or mirrored it fits better: does x run backwards and z up? A palate would tell, "
-        "and "
-        "where the place is known the frame is 'placed'");
+        "and where the place is known the frame is 'placed'");
   return placement;
 }
 
@@ -107,6 +105,7 @@ LaidPoints laid_points(const Model& model, const shape_request_t& r,
                        const std::function<const TongueReach&()>& reach) {
   ContourFrame frame = points_of(r);
   if (r.frame.empty() || r.frame == "model" || frame.points.empty()) return {std::move(frame), {}};
+  if (const std::string fault = fault_of_frame(r); !fault.empty()) throw InputError(fault);
   LaidPoints laid;
   if (r.frame == "device") {
     const auto surface = std::find_if(frame.points.begin(), frame.points.end(), on_surface);
@@ -116,14 +115,12 @@ LaidPoints laid_points(const Model& model, const shape_request_t& r,
                       "or a flesh point, or points in the frame 'model' or 'placed'",
                       surface - frame.points.begin() + 1));
     laid.placement = placement_by_registration(model, r, frame, reach());
-  } else if (r.frame == "placed") {
-    laid.placement = placement_by_numbers(model, r, one_curve(frame));
   } else {
-    throw InputError("frame: expected 'model', 'device' or 'placed'");
+    laid.placement = placement_by_numbers(model, r, one_curve(frame));
   }
   if (const RegistrationRecord& record = laid.placement->record;
       record.forced || record.judgement.faults.empty())
-    laid.frame = placed(model, one_curve(std::move(frame)), laid.placement->transform);
+    laid.frame = placed(model, one_curve(std::move(frame)), laid.placement->place.transform);
   return laid;
 }
 

@@ -6,14 +6,14 @@
 #include <optional>
 
 #include "runs/frames/registration_record.hpp"
+#include "server/answer/message_place.hpp"
 #include "server/wire/wire.hpp"
 
 namespace genio {
 
 /// How points came into the model's frame.
 struct RequestPlacement {
-  Similarity transform;
-  HeadPosePrior head;  ///< how well that place is known; 0: exactly
+  MessagePlace place;
   RegistrationRecord record;
 };
 

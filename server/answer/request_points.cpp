@@ -31,9 +31,6 @@ ContourFrame palate_of(const shape_request_t& r) {
   frame.number = 1;
   for (int i = 0; i < r.palate_count; ++i) {
     const size_t k = size_t(i);
-    if (!std::isfinite(r.palate_x_mm[k]) || !std::isfinite(r.palate_z_mm[k]))
-      throw InputError(
-          fmt::format("palate point {}: palate_x_mm and palate_z_mm must be finite", i + 1));
     ContourPoint& p = frame.points.emplace_back();
     p.position = 1e-3 * Vec3(r.palate_x_mm[k], not_given, r.palate_z_mm[k]), p.kind = "curve";
   }

@@ -33,6 +33,14 @@ bool printable(const std::string& text) {
                       [](unsigned char c) { return c < 0x20 || c == 0x7f; });
 }
 
+}  // namespace
+
+bool usable_client(const std::string& name) {
+  return !name.empty() && name.size() <= 40 &&
+         std::all_of(name.begin(), name.end(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+}
+
 std::string fault_of_frame(const shape_request_t& r) {
   if (!r.frame.empty() && r.frame != "model" && r.frame != "device" && r.frame != "placed")
     return "frame: expected 'model', 'device' or 'placed'";
@@ -50,14 +58,6 @@ std::string fault_of_frame(const shape_request_t& r) {
       if (!std::isfinite((*palate)[k]))
         return fmt::format("palate point {}: palate_x_mm and palate_z_mm must be finite", k + 1);
   return "";
-}
-
-}  // namespace
-
-bool usable_client(const std::string& name) {
-  return !name.empty() && name.size() <= 40 &&
-         std::all_of(name.begin(), name.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
 std::string fault_of(const shape_request_t& r) {

@@ -20,6 +20,9 @@ bool usable_client(const std::string& name);
 /// points mean is the model's to say.
 std::string fault_of(const shape_request_t& request);
 
+/// The same of the frame alone: its name, its place and its palate.
+std::string fault_of_frame(const shape_request_t& request);
+
 /// Who sent a message of which only the beginning can be read, and under which id. All versions of
 /// the request begin alike.
 struct Sender {

@@ -78,9 +78,10 @@ void Dispatcher::receive_request(const void* data, size_t size, int64_t now) {
   accept(std::move(*request), {bytes, bytes + size}, now);
 }
 
-void Dispatcher::ask_again(const shape_request_t& request, Entry& entry) {
+void Dispatcher::ask_again(const shape_request_t& request, const std::string& digest,
+                           Entry& entry) {
   const std::string& client = request.client;
-  if (digest_of(request) != entry.digest) return refuse(client, request.id, id_is_taken);
+  if (digest != entry.digest) return refuse(client, request.id, id_is_taken);
   if (entry.state == State::answered) {
     ++tally_.replied;
     return outbox_.reply(client, entry.reply);
@@ -94,11 +95,10 @@ void Dispatcher::ask_again(const shape_request_t& request, Entry& entry) {
   entry.clients.push_back(client);
 }
 
-bool Dispatcher::answered_before(const shape_request_t& request) {
+bool Dispatcher::answered_before(const shape_request_t& request, const std::string& digest) {
   const auto known = journal_ ? journal_.find(request.id) : std::nullopt;
   if (!known) return false;
-  if (known->digest != digest_of(request))
-    return refuse(request.client, request.id, id_is_taken), true;
+  if (known->digest != digest) return refuse(request.client, request.id, id_is_taken), true;
   // What another process accepted meanwhile, or before, and nobody answered.
   if (known->reply.empty()) return false;
   std::string why;
@@ -120,16 +120,17 @@ std::string Dispatcher::why_full(size_t bytes) const {
 }
 
 void Dispatcher::accept(shape_request_t request, std::vector<uint8_t> bytes, int64_t now) {
+  const std::string digest = digest_of(request);
   if (const auto it = entries_.find(request.id); it != entries_.end())
-    return ask_again(request, it->second);
-  if (answered_before(request)) return;
+    return ask_again(request, digest, it->second);
+  if (answered_before(request, digest)) return;
   if (running_.contains(request.id))
     return refuse(request.client, request.id,
                   "a computation of this id was given up and has not ended yet; ask again", 1);
   if (const std::string why = why_full(bytes.size()); !why.empty())
     return refuse(request.client, request.id, why, seconds_until_free());
-  AcceptedRecord record{request.id, request.client, digest_of(request), std::move(bytes), now,
-                        0,          request.model,  request.stream,     request.priority};
+  AcceptedRecord record{request.id, request.client, digest,         std::move(bytes), now,
+                        0,          request.model,  request.stream, request.priority};
   if (request.deadline_s > 0)
     record.deadline = now + int64_t(std::min(1e6 * request.deadline_s, 1e15));
   enqueue(std::move(request), record);

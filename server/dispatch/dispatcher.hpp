@@ -106,9 +106,9 @@ class Dispatcher {
   void accept(shape_request_t request, std::vector<uint8_t> bytes, int64_t now);
   Entry& enqueue(shape_request_t request, const AcceptedRecord& record);
   void wait_in_line(Entry& entry);
-  void ask_again(const shape_request_t& request, Entry& entry);
+  void ask_again(const shape_request_t& request, const std::string& digest, Entry& entry);
   /// The reply that the journal has of the id; true where nothing is left to do.
-  bool answered_before(const shape_request_t& request);
+  bool answered_before(const shape_request_t& request, const std::string& digest);
   /// Empty where the request may wait.
   std::string why_full(size_t bytes) const;
   void answer(Entry& entry, command_reply_t reply, int64_t now);

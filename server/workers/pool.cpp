@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
+#include "forward/base/process_memory.hpp"
 #include "server/wire/body.hpp"
 #include "server/workers/worker_side.hpp"
 
@@ -30,10 +30,8 @@ void listen_to(int epoll, int descriptor, pid_t pid, uint32_t events, int how) {
 
 /// What a process has of its own [MB]; 0 where it is gone.
 double own_memory_mb(pid_t pid) {
-  double size = 0, resident = 0, shared = 0;
-  std::ifstream in(fmt::format("/proc/{}/statm", pid));
-  if (!(in >> size >> resident >> shared)) return 0;
-  return 1e-6 * (resident - shared) * double(sysconf(_SC_PAGESIZE));
+  const ProcessMemory m = memory_of(pid);
+  return 1e-6 * (double(m.resident) - double(m.shared));
 }
 
 std::string end_of_process(int status, const WorkerLimits& limits) {

@@ -1,15 +1,13 @@
 #include "server/workers/worker_side.hpp"
 
 #include <poll.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
-#include <fstream>
 #include <new>
 
+#include "forward/base/process_memory.hpp"
 #include "server/wire/body.hpp"
 
 namespace genio {
@@ -17,10 +15,6 @@ namespace {
 
 constexpr double sign_of_life_s = 0.2;
 constexpr int leisure_ms = 1000;
-
-double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 [[noreturn]] void no_memory() { _exit(exit_without_memory); }
 
@@ -34,7 +28,7 @@ void WorkerPipe::send(const WorkerMessage& message) {
     if (n <= 0) _exit(0);
     sent += size_t(n);
   }
-  told_ = steady_seconds();
+  quiet_ = {};
 }
 
 void WorkerPipe::receive(int flags) {
@@ -72,7 +66,7 @@ bool WorkerPipe::withdrawn() {
   receive(MSG_DONTWAIT);
   while (const auto message = assembler_.next())
     withdrawn_ |= message->word == WorkerWord::withdraw;
-  if (steady_seconds() - told_ > sign_of_life_s) send({WorkerWord::alive, {}});
+  if (quiet_.seconds() > sign_of_life_s) send({WorkerWord::alive, {}});
   return withdrawn_;
 }
 
@@ -90,11 +84,7 @@ void WorkerPipe::tell_answer(const command_reply_t& reply, const std::vector<uin
 
 void limit_memory(double mb) {
   std::set_new_handler(no_memory);
-  double pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const auto bytes = rlim_t(pages * double(sysconf(_SC_PAGESIZE)) + 1e6 * mb);
-  const rlimit limit{bytes, bytes};
-  setrlimit(RLIMIT_AS, &limit);
+  limit_addresses(size_t(1e6 * mb));
 }
 
 void run_worker(int socket, const std::function<void(const Assignment&, WorkerPipe&)>& answer,

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "forward/base/elapsed.hpp"
 #include "server/dispatch/dispatcher.hpp"
 #include "server/workers/frame_pipe.hpp"
 
@@ -31,7 +32,7 @@ class WorkerPipe {
   int socket_;
   MessageAssembler assembler_;
   bool withdrawn_ = false;
-  double told_ = 0;  // when it last sent anything [s]
+  Stopwatch quiet_;  // since it last sent anything
 };
 
 /// Exit status of a worker that found no more memory.

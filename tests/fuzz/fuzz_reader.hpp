@@ -17,7 +17,6 @@ struct FuzzReader {
   /// Throws InputError where the file is refused. Whatever else comes out of it is a finding.
   std::function<void(const std::string& path)> read;
   std::map<std::string, std::string> beside = {};  ///< other files of the folder, by name
-  int copies = 300;  ///< changed ones of each seed that every build reads
 };
 
 std::vector<FuzzReader> contour_readers();

@@ -64,7 +64,7 @@ TEST_P(Readers, ReadOrRefuseBrokenFiles) {
   std::mt19937 random(7);
   int refused = 0;
   for (const std::string& seed : GetParam().seeds)
-    for (int k = 0; k < GetParam().copies; ++k) refused += !folder.reads(broken(seed, random));
+    for (int k = 0; k < 300; ++k) refused += !folder.reads(broken(seed, random));
   // content_hash takes any bytes.
   EXPECT_TRUE(refused > 10 || GetParam().name == "content_hash") << refused;
 }

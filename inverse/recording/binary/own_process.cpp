@@ -8,9 +8,9 @@
 
 #include <cerrno>
 #include <csignal>
-#include <fstream>
 #include <new>
 
+#include "forward/base/process_memory.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio {
@@ -24,15 +24,6 @@ constexpr char result_mark = 'R', refusal_mark = 'I', end_mark = '.';
 void limit(__rlimit_resource_t what, rlim_t value) {
   const rlimit both{value, value};
   setrlimit(what, &both);
-}
-
-/// Sanitizers keep terabytes of addresses to themselves, which no limit leaves them.
-void limit_memory() {
-#ifndef __SANITIZE_ADDRESS__
-  size_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  limit(RLIMIT_AS, pages * size_t(sysconf(_SC_PAGESIZE)) + most_bytes);
-#endif
 }
 
 void write_all_to(int pipe, const std::string& text) {
@@ -49,7 +40,7 @@ void write_all_to(int pipe, const std::string& text) {
   for (const int s : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGTERM, SIGINT})
     signal(s, SIG_DFL);
   limit(RLIMIT_CORE, 0), limit(RLIMIT_CPU, most_seconds);
-  limit_memory();
+  limit_addresses(most_bytes);
   if (const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0) dup2(nowhere, 2);
   std::string answer;
   try {
