@@ -4,7 +4,7 @@ import unittest
 from contextlib import ExitStack
 
 from genio_client import Client, NoReply, read_frames
-from running import EXAMPLE, GENIO, PATIENCE_S, WORD, Serving
+from running import EXAMPLE, GENIO, PATIENCE_S, WORD, Serving, eventually
 
 LONG = {"starts": 1000}  # no machine computes it within a test
 PATIENT = {"timeout_s": PATIENCE_S}
@@ -87,9 +87,14 @@ class ServersThatEnd(Serving):
             answers += stream
         self.assertEqual([(a.status, a.time_s) for a in answers],
                          [("converged", f.time_s) for f in frames])
+        # The acknowledgement of the first may have come to the server that was killed; that of the
+        # last is on its way.
+        def delivered():
+            listed = self.output_of(GENIO, "journal", journal, "list")
+            return listed.count("\tdelivered\tconverged\t")
+        eventually(lambda: delivered() >= len(frames) - 1)
         server.stop()
         listed = self.output_of(GENIO, "journal", journal, "list")
-        # The acknowledgement of the first may have come to the server that was killed.
         self.assertGreaterEqual(listed.count("\tdelivered\tconverged\t"), len(frames) - 1, listed)
         self.assertEqual(listed.count("\tconverged\t"), len(frames), listed)
 
