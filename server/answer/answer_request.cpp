@@ -1,5 +1,6 @@
 #include "server/answer/answer_request.hpp"
 
+#include <algorithm>
 #include <new>
 
 #include "forward/base/elapsed.hpp"
@@ -13,6 +14,16 @@
 #include "server/dispatch/replies.hpp"
 
 namespace genio {
+
+namespace {
+
+/// Thrown out of a search whose result nobody waits for. It is none of the errors that a search
+/// handles by itself.
+struct SearchEnded {
+  InferStatus status;
+};
+
+}  // namespace
 
 struct RequestWorker::State {
   explicit State(const Model& m) : workspace(m), line(m) {
@@ -30,16 +41,27 @@ RequestWorker::~RequestWorker() = default;
 
 void RequestWorker::prepare(const std::function<bool()>& stop) {
   TongueState& tongue = state_->workspace.whole();
+  try {
+    if (!state_->reach)
+      state_->reach = reach_of(*tongue.model, [&] {
+        if (stop()) throw SearchEnded{InferStatus::cancelled};
+      });
+  } catch (const SearchEnded&) {
+    return;
+  }
   tongue.atlas.get(*tongue.model, Prior{}, false, tongue.workspace, stop);
 }
 
 namespace {
 
-LaidPoints laid_by(RequestWorker::State& state, const Model& model,
-                   const shape_request_t& request) {
-  return laid_points(model, request, [&]() -> const TongueReach& {
-    if (!state.reach) state.reach = reach_of(model);
-    return *state.reach;
+/// `on_step` as of TongueReach.
+LaidPoints laid_by(RequestWorker::State& state, const Model& model, const shape_request_t& request,
+                   const std::function<void()>& on_step) {
+  return laid_points(model, request, [&] {
+    if (!state.reach) state.reach = reach_of(model, on_step);
+    TongueReach reach = *state.reach;
+    reach.on_step = on_step;
+    return reach;
   });
 }
 
@@ -57,21 +79,9 @@ void allow_for(const RequestPlacement& placement, Prior& prior, InferOptions& op
   options.model_error = ModelError().of_another_speaker();
 }
 
-/// The answer, unless its time is over already: to register points takes long, too.
-Answer inferred(const Model& model, const Target& target, const Prior& prior,
-                RequestWorker::State& state, const InferOptions& options,
-                const StartOptions& starts) {
-  Answer none;
-  if (options.deadline_s < 0) {
-    none.status = InferStatus::deadline;
-    none.message = "the deadline passed before the first step was done";
-    return none;
-  }
-  if (options.cancelled && options.cancelled()) {
-    none.status = InferStatus::cancelled, none.message = "cancelled by the requester";
-    return none;
-  }
-  return infer_from_starts(model, target, prior, state.workspace, options, starts);
+const char* words_of(InferStatus ended) {
+  return ended == InferStatus::deadline ? "the deadline passed before the first step was done"
+                                        : "cancelled by the requester";
 }
 
 }  // namespace
@@ -83,9 +93,14 @@ RequestAnswer answer_request(const Model& model, const shape_request_t& request,
   command_reply_t& reply = answer.reply;
   const Stopwatch watch;
   RequestWorker::State& state = worker.state();
+  // To register points takes long, too.
+  const auto check_wanted = [&] {
+    if (hooks.cancelled && hooks.cancelled()) throw SearchEnded{InferStatus::cancelled};
+    if (deadline_s > 0 && watch.seconds() > deadline_s) throw SearchEnded{InferStatus::deadline};
+  };
   try {
     Prior prior = prior_of(model, request);
-    const LaidPoints laid = laid_by(state, model, request);
+    const LaidPoints laid = laid_by(state, model, request, check_wanted);
     fill_placement(laid.placement, reply);
     InferOptions options;
     if (laid.placement) {
@@ -111,8 +126,10 @@ RequestAnswer answer_request(const Model& model, const shape_request_t& request,
         withhold_doubtful_verdict(laid.placement, best);
         hooks.improved(std::move(best));
       };
-    if (deadline_s > 0) options.deadline_s = deadline_s - watch.seconds();
-    const Answer a = inferred(model, target, prior, state, options, {request.starts});
+    check_wanted();
+    if (deadline_s > 0) options.deadline_s = std::max(1e-6, deadline_s - watch.seconds());
+    const Answer a =
+        infer_from_starts(model, target, prior, state.workspace, options, {request.starts});
     reply.status = to_string(a.status);
     reply.message = a.message;
     reply.ipopt_iterations = a.iterations;
@@ -120,6 +137,8 @@ RequestAnswer answer_request(const Model& model, const shape_request_t& request,
     fill_answer(state.line, a, reply);
     withhold_doubtful_verdict(laid.placement, reply);
     if (a.status == InferStatus::converged) answer.state = {request.prior, a.activations, a.shape};
+  } catch (const SearchEnded& ended) {
+    reply.status = to_string(ended.status), reply.message = words_of(ended.status);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {

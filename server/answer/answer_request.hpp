@@ -15,8 +15,8 @@ class RequestWorker {
  public:
   explicit RequestWorker(const Model& model);
   ~RequestWorker();
-  /// Makes the atlas of other shapes, while there is nothing else to do: until `stop` says so. Goes
-  /// on where it stopped.
+  /// Makes what registrations need, and then the atlas of other shapes, while there is nothing else
+  /// to do: until `stop` says so. The atlas goes on where it stopped.
   void prepare(const std::function<bool()>& stop);
   struct State;
   State& state() { return *state_; }
@@ -29,6 +29,7 @@ class RequestWorker {
 struct RequestHooks {
   std::function<void(int iteration, double rms)> progress;  ///< rms [m]
   std::function<void(command_reply_t so_far)> improved;
+  /// Asked before each step of every search, so that it may tell that the work goes on.
   std::function<bool()> cancelled;
 };
 

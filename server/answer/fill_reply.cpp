@@ -103,7 +103,7 @@ void fill_placement(const std::optional<RequestPlacement>& placement, command_re
 
 void withhold_doubtful_verdict(const std::optional<RequestPlacement>& placement,
                                command_reply_t& reply) {
-  if (!placement || !placement->record.forced || reply.verdict != "explained") return;
+  if (!placement || !placement->record.forced || reply.verdict == "none") return;
   reply.verdict = "none";
   reply.message = fmt::format("no verdict, as the place of the points is doubtful: {} ({})",
                               faults_text(placement->record.judgement), reply.message);

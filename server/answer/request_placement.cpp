@@ -102,7 +102,7 @@ RequestPlacement placement_by_registration(const Model& model, const shape_reque
 }  // namespace
 
 LaidPoints laid_points(const Model& model, const shape_request_t& r,
-                       const std::function<const TongueReach&()>& reach) {
+                       const std::function<TongueReach()>& reach) {
   ContourFrame frame = points_of(r);
   if (r.frame.empty() || r.frame == "model" || frame.points.empty()) return {std::move(frame), {}};
   if (const std::string fault = fault_of_frame(r); !fault.empty()) throw InputError(fault);

@@ -24,10 +24,10 @@ struct LaidPoints {
 };
 
 /// Registers points in a device's frame as recordings are, with the model's reach that `reach`
-/// gives only then. What is wrong with that stands in the record's judgement, and there are no
-/// points. Whoever places points by numbers insists on them: where no tongue is, the record is
-/// `forced`. Throws InputError naming the field or the point.
+/// gives only then; what its on_step throws passes through. What is wrong with that stands in the
+/// record's judgement, and there are no points. Whoever places points by numbers insists on them:
+/// where no tongue is, the record is `forced`. Throws InputError naming the field or the point.
 LaidPoints laid_points(const Model& model, const shape_request_t& request,
-                       const std::function<const TongueReach&()>& reach);
+                       const std::function<TongueReach()>& reach);
 
 }  // namespace genio

@@ -175,6 +175,7 @@ BentFit fit_bent_lines(const RegistrationProblem& problem, const TongueReach& re
                                              Vector::Zero(Eigen::Index(reach.modes.size())))};
   double cost = cost_of(problem, reach, at), damping = 1e-2;
   for (int k = 0; k < most_steps && damping < 1e6; ++k) {
+    problem.step();
     const Place next = stepped(normal_of(problem, reach, at), damping, at);
     const double there = cost_of(problem, reach, next);
     if (!(there < cost)) {

@@ -35,16 +35,18 @@ double greatest_force(const Model& model, const std::string& name) {
 
 }  // namespace
 
-Postures postures_of(const Model& model) {
+Postures postures_of(const Model& model, const std::function<void()>& on_step) {
   const auto mirror = mirror_of(model);
   const Model& solved = mirror ? mirror->half : model;
   const auto whole = [&](const Positions& x) { return mirror ? Positions(mirror->whole(x)) : x; };
   Workspace ws(solved);
   const Parameters passive = default_parameters(solved);
+  if (on_step) on_step();
   const Equilibrium rest = solve_equilibrium(solved, passive, solved.rest, ws);
   if (!rest) return {};
   Postures postures{whole(rest.x), {}};
   for (const std::string& name : muscle_names(solved)) {
+    if (on_step) on_step();
     Parameters p = passive;
     set_command(solved, name, usual_part * greatest_force(solved, name), p);
     const Equilibrium pulled = solve_equilibrium(solved, p, rest.x, ws, {.tolerance = settled});

@@ -15,8 +15,9 @@ struct Postures {
   std::vector<Positions> pulled;  ///< where one muscle each pulls with a fifth of its maximum
 };
 
-/// Takes a static solve a muscle, of half the tongue where it is its own mirror image.
-Postures postures_of(const Model& model);
+/// Takes a static solve a muscle, of half the tongue where it is its own mirror image. `on_step` as
+/// of reach_of().
+Postures postures_of(const Model& model, const std::function<void()>& on_step = {});
 
 /// What is looked at of a shape: the coordinates of some points, `dimension` numbers a point.
 using ShapeView = std::function<Vector(const Positions&)>;

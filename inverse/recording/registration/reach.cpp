@@ -12,10 +12,10 @@ constexpr int line_points = 60;
 
 }  // namespace
 
-TongueReach reach_of(const Model& model) {
+TongueReach reach_of(const Model& model, const std::function<void()>& on_step) {
   const TongueLine line(model);
   TongueReach reach{line.sample(model.rest, line_points), {}};
-  const Matrix modes = principal_modes(postures_of(model), 2, [&](const Positions& x) {
+  const Matrix modes = principal_modes(postures_of(model, on_step), 2, [&](const Positions& x) {
     Vector row(2 * line_points);
     const auto points = line.sample(x, line_points);
     for (int i = 0; i < line_points; ++i) row.segment<2>(2 * i) = points[size_t(i)];

@@ -1,6 +1,8 @@
 #pragma once
 // Where the tongue's line may lie: the rest line and the ways in which muscles move it.
 
+#include <functional>
+
 #include "inverse/target/tongue_line.hpp"
 
 namespace genio {
@@ -9,12 +11,14 @@ namespace genio {
 struct TongueReach {
   std::vector<Vec2> rest;                ///< [m]
   std::vector<std::vector<Vec2>> modes;  ///< displacements of one standard deviation each [m]
+  /// Called before each step of a search along it, unless empty. What it throws ends the search.
+  std::function<void()> on_step = {};
 };
 
 /// The principal modes of the equilibria in which one muscle each pulls with a fifth of its
 /// maximum, scaled so that postures lie 5 mm (root mean square) from rest. Takes a static solve a
-/// muscle.
-TongueReach reach_of(const Model& model);
+/// muscle, before each of which `on_step` is called unless empty; what that throws ends the work.
+TongueReach reach_of(const Model& model, const std::function<void()>& on_step = {});
 
 /// The foot of q on a line: its segment and the way along it from 0 to 1.
 struct LineFoot {

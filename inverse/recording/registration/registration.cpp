@@ -24,7 +24,7 @@ RegistrationProblem problem_of(const TongueReach& reach,
   problem.marks = marks;
   for (const auto& contour : thin(contours, enough_frames))
     problem.contours.push_back(thin(contour, enough_points));
-  problem.rest = reach.rest;
+  problem.rest = reach.rest, problem.on_step = reach.on_step;
   return problem;
 }
 

@@ -84,7 +84,9 @@ double minimise(const RegistrationProblem& problem, std::vector<double>& v) {
   nlopt::opt optimiser(nlopt::LD_SLSQP, 4);
   optimiser.set_min_objective(
       [](const std::vector<double>& at, std::vector<double>& gradient, void* data) {
-        return static_cast<const RegistrationProblem*>(data)->cost(at, gradient);
+        const auto& searched = *static_cast<const RegistrationProblem*>(data);
+        searched.step();
+        return searched.cost(at, gradient);
       },
       const_cast<RegistrationProblem*>(&problem));
   optimiser.set_xtol_rel(1e-7);
@@ -93,6 +95,7 @@ double minimise(const RegistrationProblem& problem, std::vector<double>& v) {
   try {
     optimiser.optimize(v, value);
   } catch (const std::runtime_error&) {  // no more progress: where it stands will do
+    problem.step();                      // unless that ended the search
     std::vector<double> none;
     value = problem.cost(v, none);
   }

@@ -1,6 +1,7 @@
 #pragma once
 // The cost of a registration and its minimum near a start. Not for other rooms.
 
+#include <functional>
 #include <numbers>
 
 #include "inverse/recording/registration/reach.hpp"
@@ -25,6 +26,11 @@ struct RegistrationProblem {
   HeadMarks marks;             ///< a bite plane is horizontal in the model
   Vec2 centre = Vec2::Zero();  ///< rotation and scale act about it
 
+  std::function<void()> on_step = {};  ///< as of TongueReach
+
+  void step() const {
+    if (on_step) on_step();
+  }
   Similarity transform(const std::vector<double>& v) const;
   /// With all contours about the line at rest, in squares of standard deviations; `gradient` is
   /// filled unless it is empty.
