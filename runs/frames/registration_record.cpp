@@ -84,7 +84,7 @@ AnswerView with_registration(AnswerView view, const std::string& registration, b
   view.registration = registration;
   if (!forced) return view;
   view.title += " (the registration is doubtful)";
-  if (view.verdict == "explained") {
+  if (view.verdict != "none") {
     view.verdict = "none";
     view.message = fmt::format("no verdict, as the registration is doubtful ({})", view.message);
   }

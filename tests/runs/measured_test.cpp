@@ -64,11 +64,15 @@ TEST_F(MeasuredTest, WhoInsistsIsToldInEveryResult) {
   EXPECT_TRUE(json["doubtful"]);
   EXPECT_TRUE(json["forced"]);
   EXPECT_NE(remarks.find("DOUBTFUL"), std::string::npos);
-  AnswerView view;
-  view.verdict = "explained";
-  view = with_registration(view, m.registration);
-  EXPECT_NE(view.title.find("doubtful"), std::string::npos);
-  EXPECT_EQ(view.verdict, "none");
+  // Nor can a tongue be said not to reach points whose place is doubtful.
+  for (const char* verdict : {"explained", "unreachable", "mismatch"}) {
+    AnswerView view;
+    view.verdict = verdict;
+    view = with_registration(view, m.registration);
+    EXPECT_NE(view.title.find("doubtful"), std::string::npos);
+    EXPECT_EQ(view.verdict, "none");
+    EXPECT_NE(view.message.find("doubtful"), std::string::npos);
+  }
 }
 
 /// Ultrasound of the example, with its palate.
