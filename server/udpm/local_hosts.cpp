@@ -1,33 +1,41 @@
 #include "server/udpm/local_hosts.hpp"
 
-#include <sys/socket.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 
-#include "server/hub/descriptor.hpp"
+#include <algorithm>
+#include <memory>
 
 namespace genio {
 namespace {
 
-constexpr size_t most_known = 256;
-constexpr std::chrono::seconds valid{10};
-
-/// Only a host's own addresses can be bound to.
-bool can_bind(in_addr host) {
-  const Descriptor tried(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET, address.sin_addr = host;
-  return tried && bind(tried.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
-}
+constexpr std::chrono::seconds valid{1};
 
 }  // namespace
 
+void LocalHosts::ask(UdpmTime now) {
+  ifaddrs* all = nullptr;
+  if (getifaddrs(&all) != 0) return;  // what was known will do
+  const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(all, freeifaddrs);
+  ranges_.clear();
+  for (const ifaddrs* one = all; one; one = one->ifa_next) {
+    if (!one->ifa_addr || one->ifa_addr->sa_family != AF_INET || !one->ifa_netmask) continue;
+    const auto bits = [](const sockaddr* of) {
+      return reinterpret_cast<const sockaddr_in*>(of)->sin_addr.s_addr;
+    };
+    // All of a loopback interface's network is this host: 127.x.y.z.
+    const bool loopback = one->ifa_flags & IFF_LOOPBACK;
+    ranges_.push_back({bits(one->ifa_addr), loopback ? bits(one->ifa_netmask) : INADDR_BROADCAST});
+  }
+  asked_ = now;
+}
+
 bool LocalHosts::contain(in_addr address, UdpmTime now) {
-  if (IN_MULTICAST(ntohl(address.s_addr))) return false;
-  const auto it = known_.find(address.s_addr);
-  if (it != known_.end() && now - it->second.asked < valid) return it->second.local;
-  if (known_.size() >= most_known) known_.clear();
-  const Known known{can_bind(address), now};
-  known_[address.s_addr] = known;
-  return known.local;
+  if (address.s_addr == htonl(INADDR_ANY)) return true;
+  if (!asked_ || now - *asked_ >= valid) ask(now);
+  return std::any_of(ranges_.begin(), ranges_.end(), [&](const Range& range) {
+    return ((address.s_addr ^ range.address) & range.mask) == 0;
+  });
 }
 
 }  // namespace genio

@@ -1,7 +1,8 @@
 #pragma once
 #include <netinet/in.h>
 
-#include <map>
+#include <optional>
+#include <vector>
 
 #include "server/udpm/limits.hpp"
 
@@ -11,15 +12,18 @@ namespace genio {
 /// interface, and from elsewhere the system takes it for no group but 224.0.0.x.
 class LocalHosts {
  public:
-  /// The system is asked at most every ten seconds for the same address.
+  /// The system is asked at most once a second for the addresses of its interfaces. Whether one can
+  /// be bound to would say less: with net.ipv4.ip_nonlocal_bind every one can.
   bool contain(in_addr address, UdpmTime now);
 
  private:
-  struct Known {
-    bool local = false;
-    UdpmTime asked{};
+  struct Range {
+    uint32_t address, mask;  // as they travel
   };
-  std::map<uint32_t, Known> known_;
+  void ask(UdpmTime now);
+
+  std::vector<Range> ranges_;
+  std::optional<UdpmTime> asked_;
 };
 
 }  // namespace genio
