@@ -1,7 +1,9 @@
 #include "server/journalled.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "forward/base/types.hpp"
 #include "server/wire/wire.hpp"
 
 namespace genio {
@@ -45,6 +47,52 @@ struct Writer {
   }
 };
 
+/// Writes one batch of records.
+class BatchWriter {
+ public:
+  BatchWriter(Journal& journal, int64_t now_us) : journal_(journal), now_(now_us) {}
+
+  RecordsWritten write(std::vector<Record> records) {
+    attempt([&] { journal_.begin(); });
+    for (Record& record : records)
+      if (busy_) put_off(std::move(record));
+      else write(record);
+    if (!busy_) attempt([&] { journal_.sync(); });
+    return std::move(written_);
+  }
+
+ private:
+  template <class F>
+  bool attempt(F&& work) {
+    try {
+      work();
+      return true;
+    } catch (const JournalError& e) {
+      busy_ = e.busy(), written_.failure = e.what();
+      for (const std::string& id : e.refused()) written_.unkept.push_back({id, cannot_be_kept()});
+      return false;
+    }
+  }
+  void write(const Record& record) {
+    const auto* accepted = std::get_if<AcceptedRecord>(&record);
+    std::string reason;
+    if (!attempt([&] { reason = std::visit(Writer{journal_, now_}, record); }))
+      reason = cannot_be_kept();
+    if (accepted && !reason.empty()) written_.unkept.push_back({accepted->id, reason});
+  }
+  void put_off(Record record) {
+    if (const auto* accepted = std::get_if<AcceptedRecord>(&record))
+      written_.unkept.push_back({accepted->id, cannot_be_kept()});
+    else written_.put_off.push_back(std::move(record));
+  }
+  std::string cannot_be_kept() const { return "the request cannot be kept: " + written_.failure; }
+
+  Journal& journal_;
+  const int64_t now_;
+  RecordsWritten written_;
+  bool busy_ = false;
+};
+
 }  // namespace
 
 std::optional<KnownRequest> known_request(const JournalView& journal, const std::string& id) try {
@@ -60,30 +108,14 @@ AcceptedRecord accepted_record(const JournalEntry& e) {
           e.deadline_us, e.model,  e.stream,          e.priority};
 }
 
-std::vector<Unkept> write_records(Journal& journal, const std::vector<Record>& records,
-                                  int64_t now_us) {
-  std::vector<Unkept> unkept;
-  const auto told = [&](const JournalError& e) {
-    for (const std::string& id : e.refused())
-      unkept.push_back({id, std::string("the request cannot be kept: ") + e.what()});
-  };
-  for (const Record& record : records) {
-    const auto* accepted = std::get_if<AcceptedRecord>(&record);
-    try {
-      const std::string reason = std::visit(Writer{journal, now_us}, record);
-      if (accepted && !reason.empty()) unkept.push_back({accepted->id, reason});
-    } catch (const JournalError& e) {
-      told(e);
-      if (accepted)
-        unkept.push_back({accepted->id, std::string("the request cannot be kept: ") + e.what()});
-    }
-  }
-  try {
-    journal.sync();
-  } catch (const JournalError& e) {
-    told(e);
-  }
-  return unkept;
+AcceptedRecord later(AcceptedRecord record, int64_t by_us) {
+  record.accepted += by_us;
+  if (record.deadline > 0) record.deadline = std::max<int64_t>(1, record.deadline + by_us);
+  return record;
+}
+
+RecordsWritten write_records(Journal& journal, std::vector<Record> records, int64_t now_us) {
+  return BatchWriter(journal, now_us).write(std::move(records));
 }
 
 }  // namespace genio

@@ -14,15 +14,25 @@ std::optional<KnownRequest> known_request(const JournalView& journal, const std:
 /// Of an entry that was accepted and not answered.
 AcceptedRecord accepted_record(const JournalEntry& entry);
 
+/// With all its times later by `by_us`; no deadline stays none. A journal has the times of
+/// now_us(), and a dispatcher those of process_us(), which differ by wall_lead_us().
+AcceptedRecord later(AcceptedRecord record, int64_t by_us);
+
 /// A request that the journal could not keep, and why.
 struct Unkept {
   std::string id, reason;
 };
 
+/// What became of records.
+struct RecordsWritten {
+  std::vector<Unkept> unkept;
+  std::vector<Record> put_off;  ///< to be written before the next ones
+  std::string failure;          ///< why something was not written; empty: nothing failed
+};
+
 /// Writes the records, as one transaction where nothing goes wrong, and waits until they stand on
 /// the disk. Requests that cannot be kept are given back; other records are tried again with the
-/// next ones.
-std::vector<Unkept> write_records(Journal& journal, const std::vector<Record>& records,
-                                  int64_t now_us);
+/// next ones. Where another program writes it is waited for once, whatever their number.
+RecordsWritten write_records(Journal& journal, std::vector<Record> records, int64_t now_us);
 
 }  // namespace genio

@@ -1,6 +1,7 @@
 #include "server/service.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <deque>
 #include <memory>
@@ -10,11 +11,15 @@
 #include "forward/base/process_memory.hpp"
 #include "server/keeper.hpp"
 #include "server/seal/sealed_link.hpp"
+#include "server/wire/process_clock.hpp"
 
 namespace genio {
 namespace {
 
 constexpr double status_period = 1, longest_end = 5;  // [s]
+constexpr std::chrono::seconds longest_keeping{5};    // of what the journal is to have at the end
+constexpr double longest_reading = 0.1;               // of acknowledgements at the end [s]
+constexpr int ack_patience_ms = 30;                   // with the next one
 constexpr int longest_turn_ms = 100;
 constexpr size_t most_undelivered = 64u << 20;  // bytes; replies are asked for again
 
@@ -81,16 +86,17 @@ class ServiceLoop {
     const bool up = link_.wait(patience_ms(), waited_for_);
     tell_port();
     take_from_workers();
-    dispatcher_.pass_deadlines(now_us());
+    dispatcher_.pass_deadlines(process_us());
     for (const std::string& id : dispatcher_.take_unwanted()) pool_.withdraw(id);
     while (pool_.idle()) {
-      const auto next = dispatcher_.next(now_us());
+      const auto next = dispatcher_.next(process_us());
       if (!next) break;
       pool_.start(*next, uptime_.seconds());
     }
     collect();
     if (status_asked_ || uptime_.seconds() >= next_status_) tell_status();
-    if (!serving_ && heard_ && pool_.alive() > 0) serving_ = true, observer_.serving(status());
+    if (!serving_ && heard_ && pool_.alive() > 0)
+      serving_ = true, observer_.serving(status(), link_.counts());
     observer_.turn();
     if (up) departures_.publish(link_);
     else departures_.keep_replies();
@@ -104,13 +110,34 @@ class ServiceLoop {
     while (!keeper_ && dispatcher_.running() > 0 && ending.seconds() < longest_end) turn();
     dispatcher_.refuse_rest();
     collect();
-    if (keeper_) keeper_->finish(), collect(), collect();
+    if (keeper_) finish_journal();
     departures_.publish(link_);
     const server_status_t last = status();
     observer_.stopped(last, drain_counts(told, last, bool(keeper_)));
   }
 
  private:
+  /// Keeps what is to be kept, and who has acknowledged a reply. Nobody else is heard any more.
+  void finish_journal() {
+    const Keeper::Time until = std::chrono::steady_clock::now() + longest_keeping;
+    std::string given_up = keeper_->finish(until);
+    collect(), collect();
+    departures_.publish(link_);
+    read_last_acks();
+    collect();
+    if (given_up.empty()) given_up = keeper_->finish(until);
+    if (!given_up.empty()) observer_.write(journal_failed_event(given_up));
+    collect();
+  }
+
+  /// Those that have come, or are on their way.
+  void read_last_acks() {
+    acks_alone_ = true;
+    const Stopwatch reading;
+    do came_ = false, link_.wait(ack_patience_ms);
+    while (came_ && reading.seconds() < longest_reading);
+  }
+
   void tell_port() {
     const uint16_t port = link_.local_port();
     if (options_.connected_from && std::exchange(port_, port) != port)
@@ -121,18 +148,21 @@ class ServiceLoop {
     const auto unanswered = keeper_->unanswered();
     if (!unanswered.empty()) observer_.write(resumed_event(int64_t(unanswered.size())));
     for (const JournalEntry& entry : unanswered)
-      dispatcher_.resume(accepted_record(entry), entry.tries, now_us());
+      dispatcher_.resume(later(accepted_record(entry), -wall_lead_us()), entry.tries, process_us());
   }
 
   void subscribe() {
     link_.ask_for_key_on({"GENIO_REQUEST", "GENIO_CANCEL"});
     link_.subscribe("GENIO_REQUEST", [this](const std::string&, const void* data, size_t size) {
-      dispatcher_.receive_request(data, size, now_us());
+      came_ = true;
+      if (!acks_alone_) dispatcher_.receive_request(data, size, process_us());
     });
     link_.subscribe("GENIO_CANCEL", [this](const std::string&, const void* data, size_t size) {
-      dispatcher_.receive_cancel(data, size, now_us());
+      came_ = true;
+      if (!acks_alone_) dispatcher_.receive_cancel(data, size, process_us());
     });
     link_.subscribe("GENIO_ACK", [this](const std::string&, const void* data, size_t size) {
+      came_ = true;
       dispatcher_.receive_ack(data, size);
     });
     link_.subscribe("GENIO_ASK_STATUS", [this](const std::string&, const void*, size_t) {
@@ -144,7 +174,7 @@ class ServiceLoop {
   int patience_ms() const {
     double wait = 1e3 * (next_status_ - uptime_.seconds());
     if (const int64_t deadline = dispatcher_.next_deadline(); deadline > 0)
-      wait = std::min(wait, 1e-3 * double(deadline - now_us()));
+      wait = std::min(wait, 1e-3 * double(deadline - process_us()));
     return int(std::clamp(std::ceil(wait), 0.0, double(longest_turn_ms)));
   }
 
@@ -159,11 +189,15 @@ class ServiceLoop {
           break;
         case Kind::answer:
           if (options_.computed) options_.computed(event.id);
-          dispatcher_.finish(event.id, std::move(event.reply), std::move(event.state), now_us());
+          dispatcher_.finish(event.id, std::move(event.reply), std::move(event.state),
+                             process_us());
+          break;
+        case Kind::idle_lost:
+          observer_.write(worker_replaced_event("", event.reason));
           break;
         case Kind::lost:
           observer_.write(worker_replaced_event(event.id, event.reason));
-          dispatcher_.lost(event.id, event.reason, now_us());
+          dispatcher_.lost(event.id, event.reason, process_us());
           break;
       }
   }
@@ -173,12 +207,18 @@ class ServiceLoop {
       observer_.write(reply_event(n.client, n.reply));
     for (const DropNote& n : dispatcher_.take_drops())
       observer_.write(dropped_event(n.channel, n.bytes, n.reason));
+    for (const FailedHandling& f : link_.take_failures())
+      observer_.write(dropped_event(f.channel, f.bytes, "an error of the server: " + f.reason));
     Outgoing outgoing = dispatcher_.take_outgoing();
     if (!keeper_) {
       for (OutgoingMessage& m : outgoing.messages) departures_.add(std::move(m));
       return;
     }
+    for (Record& record : outgoing.records)
+      if (auto* const accepted = std::get_if<AcceptedRecord>(&record))
+        *accepted = later(std::move(*accepted), wall_lead_us());
     if (!outgoing.empty()) keeper_->hand_over(std::move(outgoing));
+    dispatcher_.hold(keeper_->is_behind());
     KeptBatch kept = keeper_->collect();
     for (OutgoingMessage& m : kept.messages) departures_.add(std::move(m));
     for (const Unkept& u : kept.unkept) dispatcher_.drop(u.id, u.reason);
@@ -191,7 +231,7 @@ class ServiceLoop {
     if (!heard_) departures_.add({"GENIO_ASK_STATUS", {0}});
     if (uptime_.seconds() >= next_status_) {
       next_status_ = uptime_.seconds() + status_period;
-      observer_.status(s);
+      observer_.status(s, link_.counts());
     }
     status_asked_ = false;
   }
@@ -202,6 +242,7 @@ class ServiceLoop {
     s.utime = now_us(), s.version = GENIO_VERSION, s.uptime_s = uptime_.seconds();
     s.workers = pool_.alive(), s.replaced = pool_.replaced();
     s.memory_mb = 1e-6 * double(own_memory().resident);
+    s.unreadable += int64_t(link_.counts().failed_handlings);
     const SealDrops& dropped = link_.dropped();
     s.unsigned_dropped = dropped.unsealed, s.forged_dropped = dropped.forged;
     s.stale_dropped = dropped.stale;
@@ -224,6 +265,8 @@ class ServiceLoop {
   double next_status_ = 0;
   uint16_t port_ = 0;
   bool status_asked_ = false, heard_ = false, serving_ = false;
+  bool came_ = false;        // a message, since it was last asked
+  bool acks_alone_ = false;  // are heard at the end
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int64_t before_deadline = 2000;  // that a reply is made up [us]
 constexpr int most_tries = 2;
+constexpr double seconds_held = 5;  // after which to ask again; as long as a program may write
 constexpr const char* id_is_taken = "the id was used for another request; choose an id that is new";
 constexpr double newest_counts = 0.2;  // of the usual time of a request
 
@@ -32,7 +33,7 @@ void Dispatcher::refuse(const std::string& client, const std::string& id, const 
                         double retry_after_s) {
   ++tally_.refused, ++tally_.replied;
   command_reply_t reply = reply_without_answer(id, "refused", reason, retry_after_s);
-  outbox_.reply(client, encode(reply));
+  outbox_.reply(client, encode(reply), Passage::at_once);
   outbox_.note(client, std::move(reply));
 }
 
@@ -61,7 +62,8 @@ void Dispatcher::receive_request(const void* data, size_t size, int64_t now) {
     const auto sender = sender_of(data, size);
     const std::string client = sender ? sender->client : unknown_client;
     const std::string id = sender ? sender->id : "";
-    for (auto& old : replies_of_earlier_versions(data, size, id)) outbox_.reply(client, old);
+    for (auto& old : replies_of_earlier_versions(data, size, id))
+      outbox_.reply(client, old, Passage::at_once);
     return refuse(client, id, "request cannot be read: " + why);
   }
   std::string fault = fault_of(*request);
@@ -84,7 +86,7 @@ void Dispatcher::ask_again(const shape_request_t& request, const std::string& di
   if (digest != entry.digest) return refuse(client, request.id, id_is_taken);
   if (entry.state == State::answered) {
     ++tally_.replied;
-    return outbox_.reply(client, entry.reply);
+    return outbox_.reply(client, entry.reply, Passage::if_room);
   }
   if (entry.asked_by(client)) return;
   if (entry.clients.size() >= limits_.clients)
@@ -107,12 +109,15 @@ bool Dispatcher::answered_before(const shape_request_t& request, const std::stri
                   "it was answered before, and its reply is not of this version; choose a new id"),
            true;
   ++tally_.replied;
-  outbox_.reply(request.client, known->reply);
+  outbox_.reply(request.client, known->reply, Passage::at_once);
   return true;
 }
 
 std::string Dispatcher::why_full(size_t bytes) const {
   if (closed_) return "the server stops; ask again";
+  if (held_)
+    return fmt::format("the journal is behind with its writing; ask again in {:.0f} s",
+                       seconds_held);
   if (int(line_.size()) < limits_.waiting && line_.bytes() + bytes <= limits_.waiting_bytes)
     return "";
   return fmt::format("the queue is full ({} requests wait); ask again in {:.0f} s", line_.size(),
@@ -128,7 +133,7 @@ void Dispatcher::accept(shape_request_t request, std::vector<uint8_t> bytes, int
     return refuse(request.client, request.id,
                   "a computation of this id was given up and has not ended yet; ask again", 1);
   if (const std::string why = why_full(bytes.size()); !why.empty())
-    return refuse(request.client, request.id, why, seconds_until_free());
+    return refuse(request.client, request.id, why, held_ ? seconds_held : seconds_until_free());
   AcceptedRecord record{request.id, request.client, digest,         std::move(bytes), now,
                         0,          request.model,  request.stream, request.priority};
   if (request.deadline_s > 0)
@@ -228,7 +233,7 @@ void Dispatcher::receive_cancel(const void* data, size_t size, int64_t now) {
   if (answered && it->second.cancelled && cancel->client == it->second.clients.front()) {
     // It may have missed the reply to its first try.
     ++tally_.replied;
-    return outbox_.reply(cancel->client, it->second.reply);
+    return outbox_.reply(cancel->client, it->second.reply, Passage::if_room);
   }
   if (it == entries_.end() || answered)
     return refuse(cancel->client, cancel->id.substr(0, longest_id),

@@ -37,7 +37,7 @@ struct JournalLookup {
 /// gets the reply of the first, whoever sends it; with other content it is refused. Only the client
 /// that asked first may withdraw a request. Deadlines count from the arrival, time in the queue
 /// with them; at its deadline a request is answered with the best shape so far. Every request gets
-/// a reply, also one that is refused. Times are of now_us(). For one thread.
+/// a reply, also one that is refused. Times are of process_us(). For one thread.
 class Dispatcher {
  public:
   /// The first of `models` answers requests that name none.
@@ -57,6 +57,8 @@ class Dispatcher {
   void resume(const AcceptedRecord& record, int tries, int64_t now);
   /// Refuses what was accepted and could not be kept.
   void drop(const std::string& id, const std::string& reason);
+  /// While `held` no request is taken: more waits for the journal than can be kept in memory.
+  void hold(bool held) { held_ = held; }
   /// Answers what has passed its deadline.
   void pass_deadlines(int64_t now);
   /// When the next deadline passes; 0: never.
@@ -133,7 +135,7 @@ class Dispatcher {
   RememberedIds remembered_;
   double usual_seconds_ = 1;  // of a request
   size_t at_once_ = 1;        // requests that ran together so far
-  bool closed_ = false;
+  bool closed_ = false, held_ = false;
 };
 
 }  // namespace genio

@@ -11,7 +11,7 @@ bool RequestEntry::asked_by(const std::string& client) const {
 void stamp(const RequestEntry& entry, const ModelIdentity& model, int64_t now,
            command_reply_t& reply) {
   const shape_request_t& r = entry.request;
-  reply.id = r.id, reply.utime = now;
+  reply.id = r.id, reply.utime = now_us();
   reply.model = model.name, reply.model_hash = model.hash;
   reply.stream = r.stream, reply.label = r.label, reply.time_s = r.time_s;
   reply.waited_s = 1e-6 * double((entry.started > 0 ? entry.started : now) - entry.accepted);

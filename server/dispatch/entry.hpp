@@ -13,7 +13,7 @@ struct ModelIdentity {
   std::string name, hash;  ///< hash: 16 hexadecimal digits of its files
 };
 
-/// A request that was accepted, and what became of it. Times as of now_us(); 0: none.
+/// A request that was accepted, and what became of it. Times as of process_us(); 0: none.
 struct RequestEntry {
   enum class State { waiting, running, answered } state = State::waiting;
   shape_request_t request;

@@ -34,14 +34,16 @@ class Outbox {
   /// Records are dropped where nobody keeps them.
   explicit Outbox(bool kept) : kept_(kept) {}
 
-  void reply(const std::string& client, std::vector<uint8_t> reply) {
-    outgoing_.messages.push_back({"GENIO_REPLY." + client, std::move(reply)});
+  void reply(const std::string& client, std::vector<uint8_t> reply,
+             Passage passage = Passage::in_order) {
+    outgoing_.messages.push_back({"GENIO_REPLY." + client, std::move(reply), {}, passage});
   }
   /// `acknowledges`: id of a request, where the message says that it was taken.
   void progress(const std::string& client, const progress_t& progress,
                 std::string acknowledges = {}) {
+    const Passage passage = acknowledges.empty() ? Passage::if_room : Passage::in_order;
     outgoing_.messages.push_back(
-        {"GENIO_PROGRESS." + client, encode(progress), std::move(acknowledges)});
+        {"GENIO_PROGRESS." + client, encode(progress), std::move(acknowledges), passage});
   }
   void keep(Record record) {
     if (kept_) outgoing_.records.push_back(std::move(record));

@@ -12,7 +12,7 @@ struct AcceptedRecord {
   std::string id, client;
   std::string digest;            ///< see digest_of()
   std::vector<uint8_t> request;  ///< as it came
-  int64_t accepted, deadline;    ///< [us since 1970]; 0: no deadline
+  int64_t accepted, deadline;    ///< [us], see later(); 0: no deadline
   std::string model = {}, stream = {};
   int priority = 0;
 };

@@ -9,11 +9,19 @@
 
 namespace genio {
 
+/// How a message passes records that are not kept yet.
+enum class Passage {
+  in_order,  ///< behind those before it
+  at_once,   ///< it tells of none of them
+  if_room,   ///< in order, and who misses it asks again: left out where much waits
+};
+
 /// A message that is to be published.
 struct OutgoingMessage {
   std::string channel;
   std::vector<uint8_t> bytes;
   std::string acknowledges = {};  ///< id of the request that it says was taken
+  Passage passage = Passage::in_order;
 };
 
 /// A reply without an answer. `retry_after_s`: when to ask again; 0: never the same.

@@ -12,6 +12,13 @@
 #include "server/journal/sqlite/file_lock.hpp"
 
 namespace genio {
+
+/// A change of an entry; false where the entry is not in the state for it.
+struct JournalChange {
+  std::function<bool(JournalTable&)> make;
+  size_t bytes = 0;  ///< that it keeps in memory
+};
+
 namespace {
 
 constexpr int pruned_at_once = 64;         // entries
@@ -24,20 +31,20 @@ std::string checked_path(const std::string& name) {
   return path;
 }
 
-/// A change of an entry; false where the entry is not in the state for it.
-using Change = std::function<bool(JournalTable&)>;
+constexpr size_t small_change = 256;  // [bytes]
 
 /// A change of a damaged entry would fail for ever, and all others with it.
 bool never_made(const StorageError& e) { return e.kind() == StorageError::Kind::damaged; }
 
-Change change_of_tries(const std::string& id, int tries) {
-  return [=](JournalTable& table) {
-    auto entry = table.find(id);
-    if (!entry || entry->state != JournalState::accepted) return false;
-    entry->tries = tries;
-    table.update(*entry);
-    return true;
-  };
+JournalChange change_of_tries(const std::string& id, int tries) {
+  return {[=](JournalTable& table) {
+            auto entry = table.find(id);
+            if (!entry || entry->state != JournalState::accepted) return false;
+            entry->tries = tries;
+            table.update(*entry);
+            return true;
+          },
+          small_change};
 }
 
 }  // namespace
@@ -58,8 +65,8 @@ struct Journal::State {
   Database db;
   JournalTable table;
   // Since the last sync():
-  std::vector<Change> changes;        // made in the open transaction, or to be made in the next
-  std::vector<std::string> accepted;  // ids, in the open transaction
+  std::vector<JournalChange> changes;  // made in the open transaction, or to be made in the next
+  std::vector<std::string> accepted;   // ids, in the open transaction
   std::optional<int64_t> unanswered_bytes;
 
   /// Whatever ends a transaction must forget what was accepted in it.
@@ -73,7 +80,7 @@ struct Journal::State {
     check_nothing_lost();
     db.run("BEGIN IMMEDIATE");
     for (auto change = changes.begin(); change != changes.end(); ++change) try {
-        (*change)(table);
+        change->make(table);
       } catch (const StorageError& e) {
         if (never_made(e)) changes.erase(change);
         throw;
@@ -86,7 +93,8 @@ struct Journal::State {
   [[noreturn]] void give_up(const StorageError& e) {
     db.roll_back();
     unanswered_bytes.reset();
-    throw JournalError(shown + ": " + e.what(), std::exchange(accepted, {}));
+    throw JournalError(shown + ": " + e.what(), std::exchange(accepted, {}),
+                       e.kind() == StorageError::Kind::busy);
   }
   [[noreturn]] void give_up(const std::bad_alloc&) {
     give_up(StorageError(StorageError::Kind::failed, "cannot be used: no memory is left"));
@@ -115,10 +123,10 @@ struct Journal::State {
     });
   }
   /// Makes a change. Where it fails it is made in the next transaction.
-  bool make(Change change) {
+  bool make(JournalChange change) {
     try {
       begin();
-      if (!change(table)) return false;
+      if (!change.make(table)) return false;
     } catch (const StorageError& e) {
       if (!never_made(e)) changes.push_back(std::move(change));
       give_up(e);
@@ -194,8 +202,8 @@ int Journal::tried(const std::string& id) {
     const auto entry = s.table.find(id);
     if (!entry || entry->state != JournalState::accepted) return 0;
     s.begin();
-    Change change = change_of_tries(id, entry->tries + 1);
-    change(s.table);
+    JournalChange change = change_of_tries(id, entry->tries + 1);
+    change.make(s.table);
     s.changes.push_back(std::move(change));
     return entry->tries + 1;
   });
@@ -206,24 +214,36 @@ bool Journal::answered(const std::string& id, std::vector<uint8_t> reply, const 
   State& s = *state_;
   const auto kept = std::make_shared<const std::vector<uint8_t>>(std::move(reply));
   s.unanswered_bytes.reset();
-  return s.make([=](JournalTable& table) {
-    auto entry = table.find(id);
-    if (!entry || entry->state != JournalState::accepted) return false;
-    entry->state = JournalState::answered;
-    entry->status = status, entry->answered_us = at_us, entry->reply = *kept;
-    table.update_with_reply(*entry);
-    return true;
-  });
+  return s.make({[=](JournalTable& table) {
+                   auto entry = table.find(id);
+                   if (!entry || entry->state != JournalState::accepted) return false;
+                   entry->state = JournalState::answered;
+                   entry->status = status, entry->answered_us = at_us, entry->reply = *kept;
+                   table.update_with_reply(*entry);
+                   return true;
+                 },
+                 small_change + kept->size()});
 }
 
 bool Journal::delivered(const std::string& id, int64_t at_us) {
-  return state_->make([=](JournalTable& table) {
-    auto entry = table.find(id);
-    if (!entry || entry->state != JournalState::answered) return false;
-    entry->state = JournalState::delivered, entry->delivered_us = at_us;
-    table.update(*entry);
-    return true;
-  });
+  return state_->make({[=](JournalTable& table) {
+                         auto entry = table.find(id);
+                         if (!entry || entry->state != JournalState::answered) return false;
+                         entry->state = JournalState::delivered, entry->delivered_us = at_us;
+                         table.update(*entry);
+                         return true;
+                       },
+                       small_change});
+}
+
+void Journal::begin() {
+  state_->attempt([&] { state_->begin(); });
+}
+
+size_t Journal::unwritten_bytes() const {
+  size_t bytes = 0;
+  for (const JournalChange& change : state_->changes) bytes += change.bytes;
+  return bytes;
 }
 
 void Journal::sync() {

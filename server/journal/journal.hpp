@@ -17,13 +17,16 @@ namespace genio {
 /// line that names the file. The journal may be used on; see Journal.
 class JournalError : public std::runtime_error {
  public:
-  JournalError(const std::string& what, std::vector<std::string> refused)
-      : std::runtime_error(what), refused_(std::move(refused)) {}
+  JournalError(const std::string& what, std::vector<std::string> refused, bool busy = false)
+      : std::runtime_error(what), refused_(std::move(refused)), busy_(busy) {}
   /// Ids that were accepted since the last sync() and are forgotten: they must be refused.
   const std::vector<std::string>& refused() const { return refused_; }
+  /// Another program wrote for too long; each further change would wait as long.
+  bool busy() const { return busy_; }
 
  private:
   std::vector<std::string> refused_;
+  bool busy_ = false;
 };
 
 enum class Acceptance {
@@ -54,6 +57,11 @@ class Journal {
   ~Journal();
   Journal(Journal&&) noexcept;
   Journal& operator=(Journal&&) noexcept;
+
+  /// Waits here for other programs that write, so that nothing before sync() has to.
+  void begin();
+  /// Of replies and other changes that wait in memory, as they could not be written [bytes].
+  size_t unwritten_bytes() const;
 
   /// Adds a request, of which the first block of members counts, unless the id is known.
   Acceptance accept(const JournalEntry& entry);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <new>
+#include <utility>
 
 #include "forward/base/types.hpp"
 #include "server/link/tcpq_link.hpp"
@@ -10,6 +12,8 @@
 
 namespace genio {
 namespace {
+
+constexpr size_t most_noted = 16;  // failures between two looks
 
 std::unique_ptr<LinkTransport> transport_for(const std::string& url) {
   if (url.starts_with("tcpq:")) return std::make_unique<TcpqLink>(url);
@@ -29,9 +33,32 @@ std::string choose_url(const std::string& option) {
 
 Link::Link(const std::string& url) : transport_(transport_for(url)) {}
 
-void Link::subscribe(const std::string& channel, Handler handler) {
-  transport_->subscribe(channel, std::move(handler));
+void Link::note(Failures& failures, const std::string& channel, size_t size,
+                const char* reason) noexcept {
+  ++failures.count;
+  try {
+    if (failures.newest.size() < most_noted) failures.newest.push_back({channel, size, reason});
+  } catch (const std::bad_alloc&) {
+    // It is counted.
+  }
 }
+
+void Link::subscribe(const std::string& channel, Handler handler) {
+  transport_->subscribe(channel, [&failures = *failures_, handler = std::move(handler)](
+                                     const std::string& name, const void* data, size_t size) {
+    try {
+      handler(name, data, size);
+    } catch (const std::exception& e) {
+      note(failures, name, size, e.what());
+    } catch (...) {
+      note(failures, name, size, "of unknown kind");
+    }
+  });
+}
+
+LinkCounts Link::counts() const { return {failures_->count, transport_->udpm_counts()}; }
+
+std::vector<FailedHandling> Link::take_failures() { return std::exchange(failures_->newest, {}); }
 
 bool Link::publish(const std::string& channel, const std::vector<uint8_t>& bytes) {
   return transport_->publish(channel, bytes);

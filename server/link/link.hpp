@@ -16,7 +16,7 @@ inline constexpr const char* default_url = "tcpq://127.0.0.1:7700";
 /// --lcm, else LCM_DEFAULT_URL, else default_url.
 std::string choose_url(const std::string& option);
 
-/// LCM's tcpq goes by LCM itself (TcpqLink), its udpm does not (UdpmLink).
+/// By LCM's tcpq (TcpqLink) or its udpm (UdpmLink); neither goes by LCM itself.
 class Link {
  public:
   using Handler = LinkTransport::Handler;
@@ -24,7 +24,8 @@ class Link {
   /// Throws InputError when the URL cannot be used. It need not be answered yet.
   explicit Link(const std::string& url);
 
-  /// `channel` is a regular expression that a whole channel must match.
+  /// `channel` is a regular expression that a whole channel must match. What `handler` throws ends
+  /// the handling of that message alone, and is counted.
   void subscribe(const std::string& channel, Handler handler);
   /// False when the connection is down, or has more to send than it can keep.
   bool publish(const std::string& channel, const std::vector<uint8_t>& bytes);
@@ -34,8 +35,19 @@ class Link {
   bool connected() const;
   /// At this side of the connection to a hub; 0 where there is none.
   uint16_t local_port() const { return transport_->local_port(); }
+  LinkCounts counts() const;
+  /// The newest messages, a few, whose handling failed since the last call.
+  std::vector<FailedHandling> take_failures();
 
  private:
+  struct Failures {
+    uint64_t count = 0;
+    std::vector<FailedHandling> newest;
+  };
+  static void note(Failures& failures, const std::string& channel, size_t size,
+                   const char* reason) noexcept;
+
+  std::unique_ptr<Failures> failures_ = std::make_unique<Failures>();  // outlives the handlers
   std::unique_ptr<LinkTransport> transport_;
 };
 

@@ -2,76 +2,48 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <lcm/lcm.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <optional>
 
 #include "forward/base/types.hpp"
+#include "server/hub/limits.hpp"
 #include "server/hub/protocol/tcpq.hpp"
-#include "server/link/silenced.hpp"
 #include "server/link/tcp_address.hpp"
 
 namespace genio {
-
 namespace {
 
-constexpr time_t longest_stall_s = 5;
+using std::chrono::milliseconds;
 
-constexpr int longest_pause_ms = 100;  // between two tries to connect
+constexpr milliseconds longest_attempt{1000};  // from its start to the hub's whole greeting
+constexpr milliseconds longest_stall{5000};    // of a hub that takes nothing of what is sent
+constexpr int longest_pause_ms = 100;          // between two tries where nobody listens
+constexpr size_t read_at_once = 64 << 10;      // bytes, before others have their turn
 
-/// True where the socket becomes ready for `events` in time.
-bool ready(int fd, short events, int longest_ms) {
-  pollfd polled{fd, events, 0};
-  return poll(&polled, 1, longest_ms) == 1 && (polled.revents & events);
+int ms_of(std::chrono::steady_clock::duration time) {
+  return int(std::max<int64_t>(0, std::chrono::ceil<milliseconds>(time).count()));
 }
 
-/// True where a hub greets back: LCM itself would wait for that without end.
-bool greets(int fd, int longest_ms) {
-  const std::vector<char> greeting = tcpq::greeting(tcpq::client_mark);
-  const auto sent = send(fd, greeting.data(), greeting.size(), MSG_NOSIGNAL);
-  if (sent != ssize_t(greeting.size())) return false;
-  std::vector<char> answer(tcpq::greeting_bytes);
-  size_t got = 0;
-  while (got < answer.size() && ready(fd, POLLIN, longest_ms)) {
-    const auto n = recv(fd, answer.data() + got, answer.size() - got, 0);
-    if (n <= 0) return false;
-    got += size_t(n);
-  }
-  return got == answer.size() && tcpq::word_at(answer, 0) == tcpq::server_mark;
+HubParser parser_of_hub() {
+  const HubLimits limits;
+  return {limits.name_bytes, limits.payload_bytes, tcpq::server_mark};
 }
 
-/// True where a hub listens there.
-bool answers(const std::string& host, uint16_t port) {
-  constexpr int longest_ms = 1000;
-  sockaddr_in address{};
-  address.sin_family = AF_INET;  // as LCM
-  address.sin_port = htons(port);
-  if (inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1) return false;
-  const int fd = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (fd < 0) return false;
-  bool good = ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  if (!good && errno == EINPROGRESS) {
-    int error = 0;
-    socklen_t size = sizeof error;
-    good = ready(fd, POLLOUT, longest_ms) &&
-           getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0;
-  }
-  good = good && greets(fd, longest_ms);
-  close(fd);
-  return good;
+/// What happens at once; else LCM's protocol takes 88 ms a round trip.
+void answer_at_once(int socket, int option) {
+  const int one = 1;
+  setsockopt(socket, IPPROTO_TCP, option, &one, sizeof one);
 }
 
-/// True where the other side is gone, of which LCM prints a line.
-bool is_closed(int fd) {
+/// True where the other side is gone, and nothing that it sent is left.
+bool is_closed(int socket) {
   char byte = 0;
-  return recv(fd, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
+  return recv(socket, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0;
 }
 
 [[noreturn]] void refuse_hub(const std::string& url) {
@@ -81,120 +53,169 @@ bool is_closed(int fd) {
 
 }  // namespace
 
-struct TcpqLink::Subscription {
-  std::string channel;
-  Handler handler;
-
-  void subscribe(lcm_t* lcm) {
-    lcm_subscribe(
-        lcm, channel.c_str(),
-        [](const lcm_recv_buf_t* buffer, const char* name, void* user) {
-          // No exception may pass through LCM's C frames.
-          try {
-            static_cast<Subscription*>(user)->handler(name, buffer->data, buffer->data_size);
-          } catch (...) {
-          }
-        },
-        this);
-  }
-};
-
-TcpqLink::TcpqLink(const std::string& url) : url_(url) {
+TcpqLink::TcpqLink(const std::string& url)
+    : url_(url), parser_(parser_of_hub()), buffer_(read_at_once) {
   if (!tcp_address(url)) refuse_hub(url);
-  connect();
+  begin();
+  while (stage_ == Stage::connecting || stage_ == Stage::greeting) {
+    pollfd polled{socket_.get(), awaited(), 0};
+    poll(&polled, 1, patience_ms(Clock::time_point::max()));
+    go_on();
+  }
 }
 
 uint16_t TcpqLink::local_port() const {
   sockaddr_in address{};
   socklen_t size = sizeof address;
-  if (!connected() ||
-      getsockname(lcm_get_fileno(lcm_), reinterpret_cast<sockaddr*>(&address), &size) != 0)
+  if (!connected() || getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
     return 0;
   return ntohs(address.sin_port);
 }
 
-bool TcpqLink::connected() const { return lcm_ && lcm_get_fileno(lcm_) >= 0; }
-
-void TcpqLink::create(const std::string& url) {
-  {
-    const Silenced lcm;
-    lcm_ = lcm_create(url.c_str());
-  }
-  if (!lcm_) refuse_hub(url_);
-  for (Subscription& s : subscriptions_) s.subscribe(lcm_);
-  tune();
+void TcpqLink::close() {
+  socket_.reset();
+  stage_ = Stage::closed;
+  ++connections_;
+  parser_ = parser_of_hub();
 }
 
-bool TcpqLink::connect() {
-  if (connected()) return true;
-  // LCM takes every name that it cannot read for this host, so it gets the address.
-  const TcpAddress address = tcp_address(url_).value();
-  const auto host = numeric_host(address.host);
-  // LCM may wait for minutes where nobody answers.
-  if (!host || !answers(*host, address.port)) return false;
-  if (!lcm_) {
-    create(fmt::format("tcpq://{}:{}", *host, address.port));
-  } else {
-    // LCM reconnects, and subscribes again, when something is published.
-    const Silenced lcm;
-    const uint8_t nothing = 0;
-    lcm_publish(lcm_, "GENIO_RECONNECT", &nothing, 1);
-  }
-  if (connected()) tune();
-  return connected();
+void TcpqLink::begin() {
+  const TcpAddress to = tcp_address(url_).value();
+  const auto host = numeric_host(to.host);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;  // as LCM
+  address.sin_port = htons(to.port);
+  if (!host || inet_pton(AF_INET, host->c_str(), &address.sin_addr) != 1) return;
+  socket_.reset(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket_) return;
+  began_ = Clock::now();
+  stage_ = Stage::connecting;
+  if (::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+    return greet();
+  if (errno != EINPROGRESS) close();
 }
 
-TcpqLink::~TcpqLink() {
-  if (lcm_) lcm_destroy(lcm_);
+void TcpqLink::greet() {
+  stage_ = Stage::greeting;
+  answer_at_once(socket_.get(), TCP_NODELAY);
+  send(tcpq::greeting(tcpq::client_mark));
 }
 
-void TcpqLink::tune() {
-  // LCM leaves Nagle's algorithm and delayed acknowledgements on: 88 ms a round trip.
-  const int fd = lcm_get_fileno(lcm_);
-  if (fd < 0) return;
-  const int one = 1;
-  if (fd != tuned_fd_) {
-    setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
-    // LCM would wait without end for a hub that stops in the middle of a message.
-    const timeval longest{longest_stall_s, 0};
-    setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
-    setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest);
+/// As far as it comes without waiting.
+void TcpqLink::go_on() {
+  if (stage_ == Stage::connecting) {
+    pollfd polled{socket_.get(), POLLOUT, 0};
+    if (poll(&polled, 1, 0) != 1) return end_if_late();
+    int error = 0;
+    socklen_t size = sizeof error;
+    if (getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &error, &size) != 0 || error != 0)
+      return close();
+    greet();
   }
-  setsockopt(fd, IPPROTO_TCP, TCP_QUICKACK, &one, sizeof one);
-  tuned_fd_ = fd;
+  if (stage_ == Stage::greeting) receive(), end_if_late();
+}
+
+void TcpqLink::end_if_late() {
+  if ((stage_ == Stage::connecting || stage_ == Stage::greeting) &&
+      Clock::now() - began_ >= longest_attempt)
+    close();
+}
+
+short TcpqLink::awaited() const { return stage_ == Stage::connecting ? POLLOUT : POLLIN; }
+
+/// How long nothing needs to be done unless the socket is ready.
+int TcpqLink::patience_ms(Clock::time_point until) const {
+  if (!connected()) until = std::min(until, began_ + longest_attempt);
+  return ms_of(until - Clock::now());
 }
 
 void TcpqLink::subscribe(const std::string& channel, Handler handler) {
-  subscriptions_.push_back({channel, std::move(handler)});
-  if (lcm_) subscriptions_.back().subscribe(lcm_);
+  auto pattern = ChannelPattern::parse(channel);
+  if (!pattern) throw InputError(fmt::format("channel '{}': no pattern of channels", channel));
+  subscriptions_.push_back({std::move(*pattern), std::move(handler)});
+  if (connected()) send(tcpq::subscription(channel));
 }
 
 bool TcpqLink::publish(const std::string& channel, const std::vector<uint8_t>& bytes) {
-  if (!connect()) return false;
-  std::optional<Silenced> lcm;
-  if (is_closed(lcm_get_fileno(lcm_))) lcm.emplace();
-  const bool sent = lcm_publish(lcm_, channel.c_str(), bytes.data(), unsigned(bytes.size())) == 0;
-  tune();
-  return sent;
+  if (connected() && is_closed(socket_.get())) close();
+  if (stage_ == Stage::closed) begin();
+  go_on();
+  if (!connected()) return false;
+  return send(
+      tcpq::publication(channel, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+}
+
+/// Sends all of it, or parts with the hub.
+bool TcpqLink::send(const std::vector<char>& bytes) {
+  for (size_t sent = 0; sent < bytes.size();) {
+    const auto n = ::send(socket_.get(), bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+    if (n > 0) {
+      sent += size_t(n);
+      continue;
+    }
+    if (n < 0 && errno == EINTR) continue;
+    pollfd polled{socket_.get(), POLLOUT, 0};
+    const bool full = n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
+    if (!full || poll(&polled, 1, ms_of(longest_stall)) != 1) return close(), false;
+  }
+  return true;
+}
+
+/// Reads and handles what is there; true where a handler was called.
+bool TcpqLink::receive() {
+  const auto n = recv(socket_.get(), buffer_.data(), buffer_.size(), 0);
+  if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return false;
+  if (n <= 0) return close(), false;
+  answer_at_once(socket_.get(), TCP_QUICKACK);  // the system forgets it
+  std::string_view bytes(buffer_.data(), size_t(n));
+  bool called = false;
+  // A handler may publish, and so find the hub gone.
+  for (const uint64_t connection = connections_; connection == connections_;) {
+    const auto event = parser_.next(bytes);
+    if (!event) {
+      if (parser_.fault() != HubParser::Fault::none) close();
+      break;
+    }
+    called |= take(*event);
+  }
+  return called;
+}
+
+bool TcpqLink::take(const HubEvent& event) {
+  if (event.kind == HubEvent::Kind::greeting) {
+    stage_ = Stage::open;
+    for (const Subscription& s : subscriptions_)
+      if (!send(tcpq::subscription(s.pattern.text()))) break;
+    return false;
+  }
+  if (event.kind != HubEvent::Kind::publish) return false;
+  const std::string channel(event.name());
+  const std::string_view payload = event.payload();
+  bool called = false;
+  for (const Subscription& s : subscriptions_) {
+    if (!s.pattern.matches(channel)) continue;
+    called = true;
+    s.handler(channel, payload.data(), payload.size());
+  }
+  return called;
 }
 
 bool TcpqLink::wait(int timeout_ms, std::span<const int> others) {
+  const auto until = Clock::now() + milliseconds(timeout_ms);
   std::vector<pollfd> polled;
   for (int fd : others) polled.push_back({fd, POLLIN, 0});
-  // LCM's own waiting functions would abort the process or block for ever without a connection.
-  if (!connect()) {
-    poll(polled.data(), polled.size(), std::min(timeout_ms, longest_pause_ms));
-    return false;
+  if (stage_ == Stage::closed) begin();
+  while (stage_ != Stage::closed) {
+    polled.push_back({socket_.get(), awaited(), 0});
+    const int ready = poll(polled.data(), polled.size(), patience_ms(until));
+    const bool came = ready > 0 && polled.back().revents != 0;
+    polled.pop_back();
+    const bool called = came && connected() && receive();
+    if (!connected()) go_on();
+    if (called || ready < 0 || ready > int(came) || Clock::now() >= until) return connected();
   }
-  const int fd = lcm_get_fileno(lcm_);
-  polled.push_back({fd, POLLIN, 0});
-  if (poll(polled.data(), polled.size(), timeout_ms) <= 0) return true;
-  if (!(polled.back().revents & (POLLIN | POLLHUP | POLLERR))) return true;
-  std::optional<Silenced> lcm;
-  if (is_closed(fd)) lcm.emplace();
-  const bool good = lcm_handle(lcm_) == 0;
-  tune();
-  return good;
+  poll(polled.data(), polled.size(), std::min(ms_of(until - Clock::now()), longest_pause_ms));
+  return false;
 }
 
 }  // namespace genio

@@ -1,37 +1,61 @@
 #pragma once
+#include <chrono>
 #include <list>
 #include <string>
+#include <string_view>
 
+#include "server/hub/descriptor.hpp"
+#include "server/hub/protocol/channel_pattern.hpp"
+#include "server/hub/protocol/parser.hpp"
 #include "server/link/transport.hpp"
-
-struct _lcm_t;  // NOLINT(bugprone-reserved-identifier): LCM's own name
 
 namespace genio {
 
-/// LCM's own connection to a hub.
+/// A connection to a hub by LCM's tcpq protocol. LCM's own client is not used: it waits without end
+/// for a hub that does not greet or stops in the middle of a message. Here nothing waits for longer
+/// than the caller says, but for the constructor, which gives a hub one second, and publish(),
+/// which gives five to one that takes nothing.
 class TcpqLink final : public LinkTransport {
  public:
   /// Throws InputError when the URL cannot be used.
   explicit TcpqLink(const std::string& url);
-  ~TcpqLink() override;
   TcpqLink(const TcpqLink&) = delete;
   TcpqLink& operator=(const TcpqLink&) = delete;
 
+  /// Throws InputError for what is no pattern of channels.
   void subscribe(const std::string& channel, Handler handler) override;
+  /// False at once while there is no connection; wait() makes one.
   bool publish(const std::string& channel, const std::vector<uint8_t>& bytes) override;
   bool wait(int timeout_ms, std::span<const int> others) override;
-  bool connected() const override;
+  bool connected() const override { return stage_ == Stage::open; }
   uint16_t local_port() const override;
 
  private:
-  struct Subscription;
-  void tune();
-  void create(const std::string& url);
-  bool connect();
+  using Clock = std::chrono::steady_clock;
+  enum class Stage { closed, connecting, greeting, open };
+  struct Subscription {
+    ChannelPattern pattern;
+    Handler handler;
+  };
 
-  std::string url_;
-  _lcm_t* lcm_ = nullptr;
-  int tuned_fd_ = -1;
+  void begin();
+  void go_on();
+  void greet();
+  void close();
+  void end_if_late();
+  short awaited() const;
+  int patience_ms(Clock::time_point until) const;
+  bool receive();
+  bool take(const HubEvent& event);
+  bool send(const std::vector<char>& bytes);
+
+  const std::string url_;
+  Descriptor socket_;
+  Stage stage_ = Stage::closed;
+  Clock::time_point began_{};  // to connect
+  uint64_t connections_ = 0;   // that ended
+  HubParser parser_;
+  std::vector<char> buffer_;
   std::list<Subscription> subscriptions_;
 };
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "server/link/counts.hpp"
+
 namespace genio {
 
 /// What one kind of connection does for a Link, whose docs say what is promised.
@@ -19,6 +21,7 @@ class LinkTransport {
   virtual bool wait(int timeout_ms, std::span<const int> others) = 0;
   virtual bool connected() const = 0;
   virtual uint16_t local_port() const { return 0; }
+  virtual std::optional<UdpmCounts> udpm_counts() const { return std::nullopt; }
 };
 
 }  // namespace genio

@@ -34,6 +34,7 @@ class UdpmLink final : public LinkTransport {
   bool connected() const override { return true; }
 
   UdpmCounts counts() const;
+  std::optional<UdpmCounts> udpm_counts() const override { return counts(); }
 
  private:
   struct Subscription {

@@ -97,14 +97,27 @@ void write_hub(const HubCounts& h, MetricsWriter& out) {
     out.sample(label("reason", name_of(HubDrop(k))), fmt::format("{}", h.drops[k]));
 }
 
+void write_link(const LinkCounts& link, MetricsWriter& out) {
+  out.counter("failed_handlings_total", link.failed_handlings,
+              "Messages that ended in an error of the server itself.");
+  if (!link.udpm) return;
+  for (const UdpmCounter& c : udpm_counters())
+    out.counter(fmt::format("{}_total", c.name), (*link.udpm).*c.field, c.help);
+  out.family("udpm_drops_total", "counter", "Datagrams that were dropped, by the reason.");
+  for (size_t k = 0; k < link.udpm->drops.size(); ++k)
+    out.sample(label("reason", name_of(UdpmDrop(k))), fmt::format("{}", link.udpm->drops[k]));
+}
+
 }  // namespace
 
-std::string metrics_text(const server_status_t& status, const HubCounts* hub) {
+std::string metrics_text(const server_status_t& status, const HubCounts* hub,
+                         const LinkCounts& link) {
   MetricsWriter out;
   write_identity(status, out);
   write_requests(status, out);
   out.gauge("hub_connections", double(status.hub_connections), "Connections of the own hub.");
   out.counter("hub_dropped_total", status.hub_dropped, "Connections that the own hub parted with.");
+  write_link(link, out);
   if (hub) write_hub(*hub, out);
   return std::move(out).text();
 }

@@ -28,6 +28,34 @@ std::span<const StatusCounter> message_drops() {
   return counters;
 }
 
+std::span<const UdpmCounter> udpm_counters() {
+  using C = UdpmCounts;
+  static constexpr UdpmCounter counters[] = {
+      {"udpm_datagrams_in", &C::datagrams_in, "Datagrams that came.", false},
+      {"udpm_datagrams_out", &C::datagrams_out, "Datagrams that were sent.", false},
+      {"udpm_overflowed", &C::overflowed, "Datagrams that found the receive buffer full.", true},
+      {"udpm_parts_in", &C::parts_in, "Parts of larger messages that came.", false},
+      {"udpm_repeated_parts", &C::repeated_parts, "Parts that were here already.", false},
+      {"udpm_joined", &C::joined, "Messages in parts that came whole.", false},
+      {"udpm_wrong_digests", &C::wrong_digests, "Whole messages with a wrong digest.", true},
+      {"udpm_abandoned", &C::abandoned, "Unfinished messages that were too old.", true},
+      {"udpm_evicted", &C::evicted, "Unfinished messages that others took the room of.", true},
+      {"udpm_asks_in", &C::asks_in, "Times that others asked for missing parts.", false},
+      {"udpm_asks_out", &C::asks_out, "Times that missing parts were asked for.", true},
+      {"udpm_parts_out", &C::parts_out, "Parts of larger messages that were sent.", false},
+      {"udpm_resent", &C::resent, "Parts that were sent again.", true},
+      {"udpm_unsendable", &C::unsendable, "Messages that no datagrams can carry.", true},
+  };
+  return counters;
+}
+
+const char* name_of(UdpmDrop why) {
+  static constexpr const char* names[] = {"not_lcm", "fragment", "bad_channel", "foreign",
+                                          "bad_part"};
+  static_assert(std::size(names) == size_t(UdpmDrop::count));
+  return names[size_t(why)];
+}
+
 const char* name_of(HubDrop why) {
   static constexpr const char* names[] = {"slow_reader", "not_greeted",        "stalled",
                                           "displaced",   "refused_pattern",    "too_large",

@@ -5,6 +5,7 @@
 
 #include "genio/server_status_t.hpp"
 #include "server/hub/counts.hpp"
+#include "server/udpm/counts.hpp"
 
 namespace genio {
 
@@ -18,6 +19,16 @@ std::span<const StatusCounter> request_counters();
 /// Messages that got no reply, by the reason.
 std::span<const StatusCounter> message_drops();
 
+/// A count of a connection over UDP multicast.
+struct UdpmCounter {
+  const char* name;
+  uint64_t UdpmCounts::*field;
+  const char* help;
+  bool tells_of_trouble;  ///< it stands still where all is well
+};
+std::span<const UdpmCounter> udpm_counters();
+
 const char* name_of(HubDrop why);
+const char* name_of(UdpmDrop why);
 
 }  // namespace genio

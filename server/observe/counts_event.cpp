@@ -16,16 +16,28 @@ void add_growth(std::vector<LogField>& fields, std::span<const StatusCounter> co
     add_growth(fields, c.name, now.*c.field - before.*c.field);
 }
 
+void add_growth(std::vector<LogField>& fields, const LinkCounts& before, const LinkCounts& now) {
+  add_growth(fields, "failed_handlings", int64_t(now.failed_handlings - before.failed_handlings));
+  if (!now.udpm) return;
+  const UdpmCounts old = before.udpm.value_or(UdpmCounts{});
+  for (const UdpmCounter& c : udpm_counters())
+    if (c.tells_of_trouble)
+      add_growth(fields, c.name, int64_t((*now.udpm).*c.field - old.*c.field));
+  for (size_t k = 0; k < old.drops.size(); ++k)
+    add_growth(fields, name_of(UdpmDrop(k)), int64_t(now.udpm->drops[k] - old.drops[k]));
+}
+
 }  // namespace
 
 std::optional<LogEvent> CountsEvent::due(const server_status_t& status, const HubCounts* hub,
-                                         double now) {
+                                         double now, const LinkCounts& link) {
   if (now - last_ < period_s_) return std::nullopt;
   const double span = now - std::exchange(last_, now);
   LogEvent event{LogKind::counts};
   add_growth(event.fields, request_counters(), before_, status);
   add_growth(event.fields, message_drops(), before_, status);
   before_ = status;
+  add_growth(event.fields, std::exchange(link_before_, link), link);
   if (hub) {
     add_growth(event.fields, "connections", int64_t(hub->accepted - hub_before_.accepted));
     for (size_t k = 0; k < hub->drops.size(); ++k)

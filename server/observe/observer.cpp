@@ -14,18 +14,18 @@ std::string line_for_people(const server_status_t& s) {
 
 }  // namespace
 
-void Observer::serving(const server_status_t& status) {
+void Observer::serving(const server_status_t& status, const LinkCounts& link) {
   write(serving_event(status, told_.facts, clock_.seconds()));
   if (told_.manager) told_.manager->ready();
-  this->status(status);
+  this->status(status, link);
 }
 
-void Observer::status(const server_status_t& status) {
+void Observer::status(const server_status_t& status, const LinkCounts& link) {
   const std::optional<HubCounts> hub = told_.hub ? std::optional(told_.hub()) : std::nullopt;
   const HubCounts* const own = hub ? &*hub : nullptr;
-  if (told_.metrics) told_.metrics->publish(metrics_text(status, own));
+  if (told_.metrics) told_.metrics->publish(metrics_text(status, own, link));
   if (told_.manager && !draining_) told_.manager->say(line_for_people(status));
-  if (const auto event = counts_.due(status, own, clock_.seconds())) write(*event);
+  if (const auto event = counts_.due(status, own, clock_.seconds(), link)) write(*event);
 }
 
 void Observer::turn() {

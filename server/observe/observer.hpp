@@ -34,9 +34,9 @@ class Observer {
     if (told_.log) told_.log->write(event);
   }
   /// Once, when the first request would be answered at once.
-  void serving(const server_status_t& status);
-  /// Whenever a status is published: once a second.
-  void status(const server_status_t& status);
+  void serving(const server_status_t& status, const LinkCounts& link = {});
+  /// Whenever a status is published: once a second. `link`: of the service's connection.
+  void status(const server_status_t& status, const LinkCounts& link = {});
   /// Every turn of the loop; more often than half the watchdog's period.
   void turn();
   /// Once, as soon as the service is told to stop. turn() goes on while it drains.

@@ -78,7 +78,10 @@ LogEvent dropped_event(const std::string& channel, size_t bytes, const std::stri
 }
 
 LogEvent worker_replaced_event(const std::string& id, const std::string& reason) {
-  return {LogKind::worker_replaced, LogLevel::warning, {{"id", id}, {"reason", reason}}};
+  LogEvent event{LogKind::worker_replaced, LogLevel::warning};
+  add_text(event, "id", id);
+  event.fields.push_back({"reason", reason});
+  return event;
 }
 
 LogEvent journal_failed_event(const std::string& reason) {

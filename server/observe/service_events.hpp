@@ -30,7 +30,7 @@ LogEvent resumed_event(int64_t requests);
 LogEvent reply_event(const std::string& client, const command_reply_t& reply);
 /// A message of so many bytes that nobody could be told about.
 LogEvent dropped_event(const std::string& channel, size_t bytes, const std::string& reason);
-/// `id`: of the request that it worked on.
+/// `id`: of the request that it worked on; empty: of none.
 LogEvent worker_replaced_event(const std::string& id, const std::string& reason);
 LogEvent journal_failed_event(const std::string& reason);
 

@@ -39,6 +39,8 @@ class SealedLink {
   bool wait(int timeout_ms, std::span<const int> others = {});
   bool connected() const { return link_.connected(); }
   uint16_t local_port() const { return link_.local_port(); }
+  LinkCounts counts() const { return link_.counts(); }
+  std::vector<FailedHandling> take_failures() { return link_.take_failures(); }
 
   /// With a key: tells senders without one, on channels to which this subscribes and where they
   /// name themselves, that it is asked for; see KeyRefusals. That leaves at the next wait().

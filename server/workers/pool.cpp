@@ -174,9 +174,10 @@ void WorkerPool::meet(const NurseryEvent& event, double now, std::vector<WorkerE
     hear(event.pid, worker, now, events);
     const std::string why =
         worker.condemned.empty() ? end_of_process(event.status, limits_) : worker.condemned;
-    if (!worker.id.empty())
-      events.push_back({WorkerEvent::Kind::lost, worker.id, 0, 0, {}, {}, why});
-    else if (now - worker.born < short_life) bear_from_ = now + again_after;
+    const bool idle = worker.id.empty();
+    const auto kind = idle ? WorkerEvent::Kind::idle_lost : WorkerEvent::Kind::lost;
+    events.push_back({kind, worker.id, 0, 0, {}, {}, why});
+    if (idle && now - worker.born < short_life) bear_from_ = now + again_after;
     close(worker.socket);
     workers_.erase(at);
     ++replaced_;

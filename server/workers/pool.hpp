@@ -17,13 +17,13 @@ struct WorkerLimits {
 
 /// What a worker tells of its request, or the pool of it.
 struct WorkerEvent {
-  enum class Kind { progress, improved, answer, lost } kind;
-  std::string id;
+  enum class Kind { progress, improved, answer, lost, idle_lost } kind;
+  std::string id;  ///< empty: idle_lost
   int iteration = 0;
   double rms_mm = 0;
   command_reply_t reply = {};       ///< improved, answer
   std::vector<uint8_t> state = {};  ///< answer
-  std::string reason = {};          ///< lost: how the worker ended, as "killed by signal 9"
+  std::string reason = {};  ///< lost, idle_lost: how the worker ended, as "killed by signal 9"
 };
 
 /// Worker processes of a nursery. One that crashes, hangs or outgrows its memory is replaced. For

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "server/dispatch/dispatcher.hpp"
+#include "server/wire/process_clock.hpp"
 #include "server/wire/wire.hpp"
 #include "tests/runs/temporary_folder.hpp"
 
@@ -43,7 +44,7 @@ struct Life {
   /// Keeps the records as the service does; the replies that may be published then.
   std::vector<command_reply_t> turn() {
     Outgoing outgoing = dispatcher.take_outgoing();
-    EXPECT_TRUE(write_records(journal, outgoing.records, now_us()).empty());
+    EXPECT_TRUE(write_records(journal, outgoing.records, now_us()).unkept.empty());
     std::vector<command_reply_t> replies;
     for (const OutgoingMessage& m : outgoing.messages) {
       std::string why;
@@ -144,6 +145,25 @@ TEST_F(Journalled, AnAcknowledgedReplyCountsAsDelivered) {
   life->dispatcher.receive_ack(bytes.data(), bytes.size());
   life->turn();
   EXPECT_EQ(life->journal.counts().delivered, 1);
+}
+
+TEST(JournalTimes, ChangeClocksAndBackAndNoDeadlineStaysNone) {
+  AcceptedRecord record{};
+  record.accepted = 1000, record.deadline = 3000;
+  const AcceptedRecord there = later(record, -700);
+  EXPECT_EQ(there.accepted, 300);
+  EXPECT_EQ(there.deadline, 2300);
+  EXPECT_EQ(later(there, 700).deadline, 3000);
+  EXPECT_GT(later(record, -5000).deadline, 0);  // passed long ago, and not none
+  record.deadline = 0;
+  EXPECT_EQ(later(record, -700).deadline, 0);
+  EXPECT_EQ(later(record, 700).deadline, 0);
+}
+
+TEST(JournalTimes, TheClockOfAProcessBeginsAsTheWallClock) {
+  const int64_t first = process_us();
+  EXPECT_LE(first, process_us());
+  EXPECT_NEAR(double(wall_lead_us()), 0, 1e9);  // unless somebody sets the clock meanwhile
 }
 
 }  // namespace

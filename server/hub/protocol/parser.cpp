@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/hub/protocol/tcpq.hpp"
-
 namespace genio {
 namespace {
 
@@ -30,7 +28,7 @@ size_t HubParser::needed() {
   if (frame_.size() < header_bytes) return header_bytes;
   const uint32_t type = tcpq::word_at(frame_, 0), name = tcpq::word_at(frame_, tcpq::word_bytes);
   if (!greeted_) {
-    if (type != tcpq::client_mark) fault_ = Fault::malformed;
+    if (type != mark_) fault_ = Fault::malformed;
     return tcpq::greeting_bytes;
   }
   if (type < tcpq::publish || type > tcpq::unsubscribe) fault_ = Fault::malformed;

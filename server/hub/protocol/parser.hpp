@@ -1,5 +1,5 @@
 #pragma once
-// What a client of the hub says, out of the bytes it sends.
+// What a client of the hub says, or the hub to a client, out of the bytes that come.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,9 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "server/hub/protocol/tcpq.hpp"
+
 namespace genio {
 
-/// One whole thing that a client said.
+/// One whole thing that a client said, or a hub.
 struct HubEvent {
   enum class Kind { greeting, publish, subscribe, unsubscribe };
   Kind kind = Kind::greeting;
@@ -22,8 +24,8 @@ struct HubEvent {
   std::string_view payload() const;
 };
 
-/// Cuts a client's bytes into events. It needs no socket, and takes no more memory than four times
-/// the bytes that really came, whatever lengths they claim.
+/// Cuts the bytes of the other side into events. It needs no socket, and takes no more memory than
+/// four times the bytes that really came, whatever lengths they claim.
 class HubParser {
  public:
   enum class Fault {
@@ -33,8 +35,9 @@ class HubParser {
     long_pattern  ///< a pattern above the limit of channels
   };
 
-  HubParser(size_t max_name_bytes, size_t max_payload_bytes)
-      : max_name_(max_name_bytes), max_payload_(max_payload_bytes) {}
+  /// `mark`: with which the other side greets.
+  HubParser(size_t max_name_bytes, size_t max_payload_bytes, uint32_t mark = tcpq::client_mark)
+      : max_name_(max_name_bytes), max_payload_(max_payload_bytes), mark_(mark) {}
 
   /// Takes bytes from the front of `bytes` until an event is whole, and leaves the rest for the
   /// next call. Nothing when all bytes are taken and none is whole, or once there is a fault.
@@ -57,6 +60,7 @@ class HubParser {
   HubEvent finish();
 
   size_t max_name_, max_payload_;
+  uint32_t mark_;
   std::vector<char> frame_;
   bool greeted_ = false;
   Fault fault_ = Fault::none;

@@ -68,5 +68,23 @@ TEST_F(Dispatch, WithoutADeadlineARequestComputesForSoLongAtMost) {
   EXPECT_EQ(dispatcher.next(now_us())->deadline_s, DispatchLimits().longest_s);
 }
 
+// The dispatcher's times need not be those of the wall clock, which anyone may set.
+TEST_F(Dispatch, OnlyRepliesCarryTheTimeOfTheWallClock) {
+  shape_request_t r{};
+  r.id = "a", r.client = "c", r.deadline_s = 2;
+  const auto bytes = encode(r);
+  const int64_t began = 5'000'000, before = now_us();
+  dispatcher.receive_request(bytes.data(), bytes.size(), began);
+  EXPECT_NEAR(1e-6 * double(dispatcher.next_deadline() - began), 2, 0.1);
+  dispatcher.pass_deadlines(began + 1'500'000);
+  EXPECT_TRUE(replies().empty());
+  dispatcher.pass_deadlines(began + 2'000'000);
+  const auto passed = replies();
+  ASSERT_EQ(passed.size(), 1u);
+  EXPECT_EQ(passed[0].reply.status, "deadline");
+  EXPECT_EQ(passed[0].reply.waited_s, 2);
+  EXPECT_GE(passed[0].reply.utime, before);
+}
+
 }  // namespace
 }  // namespace genio

@@ -195,5 +195,24 @@ TEST_F(Dispatch, PrioritiesBeyondTheirRangeAreRefused) {
   }
 }
 
+TEST_F(Dispatch, WhileTheJournalIsBehindNothingIsTakenAndWhatWasTakenGoesOn) {
+  ask("before");
+  dispatcher.hold(true);
+  ask("held");
+  const auto refused = replies();
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_EQ(refused[0].reply.id, "held");
+  EXPECT_EQ(refused[0].reply.status, "refused");
+  EXPECT_NE(refused[0].reply.message.find("journal"), std::string::npos);
+  EXPECT_GT(refused[0].reply.retry_after_s, 0);
+  EXPECT_EQ(next(), "before");
+  answer("before", 1);
+  EXPECT_EQ(replies().at(0).reply.status, "converged");
+  dispatcher.hold(false);
+  ask("held");
+  EXPECT_TRUE(replies().empty());
+  EXPECT_EQ(next(), "held");
+}
+
 }  // namespace
 }  // namespace genio

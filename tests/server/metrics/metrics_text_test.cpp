@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "server/metrics/status_figures.hpp"
 #include "tests/runs/temporary_folder.hpp"
 
 namespace genio {
@@ -34,6 +35,14 @@ HubCounts some_counts() {
   h.messages_in = 205, h.messages_out = 206, h.bytes_in = 207, h.bytes_out = 208;
   for (size_t k = 0; k < h.drops.size(); ++k) h.drops[k] = 300 + k;
   return h;
+}
+
+LinkCounts some_link() {
+  LinkCounts link{.failed_handlings = 400, .udpm = UdpmCounts{}};
+  uint64_t value = 401;
+  for (const UdpmCounter& c : udpm_counters()) (*link.udpm).*c.field = value++;
+  for (uint64_t& drops : link.udpm->drops) drops = value++;
+  return link;
 }
 
 struct Family {
@@ -72,7 +81,7 @@ std::map<std::string, Family> read_metrics(const std::string& text) {
 TEST(MetricsText, IsOfTheFormatAndEveryFamilyHasItsNameByItsType) {
   const HubCounts hub = some_counts();
   for (const HubCounts* own : {static_cast<const HubCounts*>(nullptr), &hub}) {
-    for (const auto& [name, family] : read_metrics(metrics_text(some_status(), own))) {
+    for (const auto& [name, family] : read_metrics(metrics_text(some_status(), own, some_link()))) {
       EXPECT_TRUE(name.starts_with("genio_")) << name;
       EXPECT_EQ(name.ends_with("_total"), family.type == "counter") << name;
       EXPECT_TRUE(family.type == "counter" || family.type == "gauge" || family.type == "summary");
@@ -98,6 +107,17 @@ TEST(MetricsText, HasEveryFigureOfTheStatusAndTheHub) {
         "genio_hub_drops_total{reason=\"slow_reader\"} 300\n",
         "genio_model_info{model=\"generic\",hash=\"0123456789abcdef\"} 1\n"})
     EXPECT_NE(text.find(line), text.npos) << line << "is not in\n" << text;
+}
+
+TEST(MetricsText, HasEveryCountOfTheConnection) {
+  const std::string text = metrics_text(some_status(), nullptr, some_link());
+  // All fields of the counts are of 64 bits.
+  const size_t last = 400 + sizeof(UdpmCounts) / sizeof(uint64_t);
+  for (size_t k = 400; k <= last; ++k)
+    EXPECT_NE(text.find(fmt::format(" {}\n", k)), text.npos) << k;
+  EXPECT_NE(text.find("genio_failed_handlings_total 400\n"), text.npos);
+  EXPECT_NE(text.find("genio_udpm_drops_total{reason=\"fragment\"}"), text.npos);
+  EXPECT_EQ(metrics_text(some_status(), nullptr).find("udpm"), text.npos);
 }
 
 TEST(MetricsText, ALabelFromOutsideIsEscaped) {
@@ -127,7 +147,7 @@ TEST(MetricsText, EveryNameIsInThePageOfOperating) {
   const std::string page = test::content_of(GENIO_SOURCE_DIR "/docs/operating.md");
   ASSERT_FALSE(page.empty());
   const HubCounts hub = some_counts();
-  for (const auto& [name, family] : read_metrics(metrics_text(some_status(), &hub)))
+  for (const auto& [name, family] : read_metrics(metrics_text(some_status(), &hub, some_link())))
     EXPECT_NE(page.find("| `" + name + "` | " + family.type + " |"), page.npos) << name;
 }
 

@@ -62,5 +62,22 @@ TEST(CountsEvent, EveryCountOfTheStatusIsTold) {
     }
 }
 
+TEST(CountsEvent, TroublesOfTheConnectionAreToldAndNotItsTraffic) {
+  CountsEvent counts;
+  LinkCounts link{.failed_handlings = 2, .udpm = UdpmCounts{}};
+  link.udpm->datagrams_in = 100, link.udpm->datagrams_out = 60;
+  link.udpm->overflowed = 3, link.udpm->dropped(UdpmDrop::foreign) = 4;
+  const auto first = counts.due({}, nullptr, 60, link);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(counts_in(*first), (std::map<std::string, int64_t>{{"failed_handlings", 2},
+                                                               {"udpm_overflowed", 3},
+                                                               {"foreign", 4},
+                                                               {"queued", 0},
+                                                               {"running", 0},
+                                                               {"workers", 0}}));
+  link.udpm->datagrams_in += 60, link.udpm->datagrams_out += 60;
+  EXPECT_FALSE(counts.due({}, nullptr, 120, link));
+}
+
 }  // namespace
 }  // namespace genio

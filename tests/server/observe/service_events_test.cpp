@@ -71,5 +71,12 @@ TEST(ServiceEvents, EveryEventIsInThePageOfOperating) {
         << name_of(LogKind(k));
 }
 
+TEST(ServiceEvents, AWorkerThatDiedIdleHasNoRequest) {
+  EXPECT_EQ(text_of(worker_replaced_event("", "exit status 1")),
+            "warning worker_replaced reason=\"exit status 1\"\n");
+  EXPECT_EQ(text_of(worker_replaced_event("i", "exit status 1")),
+            "warning worker_replaced id=i reason=\"exit status 1\"\n");
+}
+
 }  // namespace
 }  // namespace genio

@@ -164,5 +164,15 @@ TEST_F(Pool, WorkersEndWithTheirService) {
   }
 }
 
+TEST_F(Pool, TheDeathOfAnIdleWorkerIsToldWithItsReason) {
+  nursery = std::make_unique<Nursery>([](int) { raise(SIGKILL); });
+  pool = std::make_unique<WorkerPool>(*nursery, WorkerLimits{});
+  const auto all = wait([](const auto& events) { return !events.empty(); });
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].kind, WorkerEvent::Kind::idle_lost);
+  EXPECT_EQ(all[0].id, "");
+  EXPECT_NE(all[0].reason.find("signal 9"), std::string::npos) << all[0].reason;
+}
+
 }  // namespace
 }  // namespace genio
