@@ -23,6 +23,7 @@ namespace genio {
 namespace {
 
 constexpr time_t longest_stall_s = 5;
+constexpr int receive_buffer = 32 << 10;
 
 constexpr int longest_pause_ms = 100;  // between two tries to connect
 
@@ -155,6 +156,8 @@ void TcpqLink::tune() {
   const int one = 1;
   if (fd != tuned_fd_) {
     setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one);
+    // What waits in it can no longer give way to what others send.
+    setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
     // LCM would wait without end for a hub that stops in the middle of a message.
     const timeval longest{longest_stall_s, 0};
     setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);

@@ -31,7 +31,7 @@ std::span<const StatusCounter> message_drops() {
 const char* name_of(HubDrop why) {
   static constexpr const char* names[] = {"slow_reader", "not_greeted",        "stalled",
                                           "displaced",   "refused_pattern",    "too_large",
-                                          "malformed",   "out_of_descriptors", "out_of_memory"};
+                                          "malformed",   "out_of_descriptors", "out_of_memory", "crowds_service"};
   static_assert(std::size(names) == size_t(HubDrop::count));
   return names[size_t(why)];
 }
