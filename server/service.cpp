@@ -20,6 +20,7 @@ constexpr double status_period = 1, longest_end = 5;  // [s]
 constexpr std::chrono::seconds longest_keeping{5};    // of what the journal is to have at the end
 constexpr double longest_reading = 0.1;               // of acknowledgements at the end [s]
 constexpr int ack_patience_ms = 30;                   // with the next one
+constexpr double shortest_status = 2e-3;              // between two that are asked for
 constexpr int longest_turn_ms = 100;
 constexpr size_t most_undelivered = 64u << 20;  // bytes; replies are asked for again
 
@@ -94,7 +95,7 @@ class ServiceLoop {
       pool_.start(*next, uptime_.seconds());
     }
     collect();
-    if (status_asked_ || uptime_.seconds() >= next_status_) tell_status();
+    if (uptime_.seconds() >= due_status()) tell_status();
     if (!serving_ && heard_ && pool_.alive() > 0)
       serving_ = true, observer_.serving(status(), link_.counts());
     observer_.turn();
@@ -172,7 +173,7 @@ class ServiceLoop {
 
   /// Until something is due.
   int patience_ms() const {
-    double wait = 1e3 * (next_status_ - uptime_.seconds());
+    double wait = 1e3 * (due_status() - uptime_.seconds());
     if (const int64_t deadline = dispatcher_.next_deadline(); deadline > 0)
       wait = std::min(wait, 1e-3 * double(deadline - process_us()));
     return int(std::clamp(std::ceil(wait), 0.0, double(longest_turn_ms)));
@@ -224,7 +225,13 @@ class ServiceLoop {
     for (const Unkept& u : kept.unkept) dispatcher_.drop(u.id, u.reason);
   }
 
+  /// Of many who ask at once all get the same one.
+  double due_status() const {
+    return status_asked_ ? std::min(next_status_, last_status_ + shortest_status) : next_status_;
+  }
+
   void tell_status() {
+    last_status_ = uptime_.seconds();
     const server_status_t s = status();
     departures_.add({"GENIO_STATUS", encode(s)});
     // Whoever hears himself is heard by others.
@@ -262,7 +269,7 @@ class ServiceLoop {
   SealedLink link_;
   std::vector<int> waited_for_;
   Departures departures_;
-  double next_status_ = 0;
+  double next_status_ = 0, last_status_ = -1;
   uint16_t port_ = 0;
   bool status_asked_ = false, heard_ = false, serving_ = false;
   bool came_ = false;        // a message, since it was last asked

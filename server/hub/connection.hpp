@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "server/hub/backlog.hpp"
 #include "server/hub/descriptor.hpp"
 #include "server/hub/protocol/parser.hpp"
 #include "server/hub/protocol/subscriptions.hpp"
+#include "server/hub/queues/backlog.hpp"
 #include "server/hub/standing.hpp"
 
 namespace genio {
@@ -48,6 +48,7 @@ struct HubConnection {
   bool to_send = false;             ///< has got a message in this turn
   bool welcomed = false;            ///< the hub's own greeting was sent
   bool reading = true;              ///< false when the hub ends and no more is expected
+  bool held_back = false;           ///< not read from while much of it waits for the service
   HubTime heard;                    ///< when bytes came last
   bool ended = false;               ///< to be removed at the end of the turn
 };

@@ -16,6 +16,7 @@ enum class HubDrop {
   malformed,           ///< what LCM does not say
   out_of_descriptors,  ///< the process had no descriptor for it
   out_of_memory,
+  crowds_service,  ///< what it had sent to the service took most of the room for that
   count
 };
 

@@ -12,9 +12,6 @@
 namespace genio {
 namespace {
 
-// The first turns of many floods end before it is known what they are.
-constexpr size_t favoured_messages = 8;
-
 HubDrop reason_for(HubParser::Fault fault) {
   switch (fault) {
     case HubParser::Fault::too_large:
@@ -101,7 +98,7 @@ std::string_view HubExchange::understand(HubConnection& c, std::string_view byte
     std::optional<HubEvent> event = c.parser.next(bytes);
     if (!event) break;
     handle(c, std::move(*event), now);
-    if (HubClock::now() >= end) break;
+    if (HubClock::now() >= end || table_.holds_back(c, c.held_back)) break;
   }
   if (!c.ended && c.parser.fault() != HubParser::Fault::none)
     table_.drop(c, reason_for(c.parser.fault()));
@@ -126,32 +123,33 @@ void HubExchange::handle(HubConnection& c, HubEvent event, HubTime now) {
     case HubEvent::Kind::publish:
       c.standing.took_part = true;
       ++table_.counters().messages_in;
-      relay(std::move(event), now);
+      relay(c.id, std::move(event), now);
       return;
   }
 }
 
-void HubExchange::relay(HubEvent event, HubTime now) {
+void HubExchange::relay(uint64_t sender, HubEvent event, HubTime now) {
   const std::string_view channel = event.name();  // its bytes stay where they are
   const auto message = std::make_shared<const HubMessage>(std::move(event.frame), table_.held());
   for (auto& [id, to] : table_.all())
-    if (!to.ended && to.subscriptions.want(channel)) hand_over(to, message, now);
+    if (!to.ended && to.subscriptions.want(channel)) hand_over(sender, to, message, now);
   table_.keep_queue_small();
 }
 
-void HubExchange::hand_over(HubConnection& to, const std::shared_ptr<const HubMessage>& message,
-                            HubTime now) {
+void HubExchange::hand_over(uint64_t sender, HubConnection& to,
+                            const std::shared_ptr<const HubMessage>& message, HubTime now) {
   try {
     if (to.backlog.empty()) to.standing.drained = now;
-    to.backlog.push(message);
+    to.backlog.push(message, sender);
     if (!std::exchange(to.to_send, true)) to_send_to_.push_back(&to);
   } catch (const std::bad_alloc&) {
     return table_.drop(to, HubDrop::out_of_memory);
   }
   to.standing.backlog_bytes = to.backlog.bytes();
   const HubLimits& limits = table_.limits();
-  const size_t most = limits.backlog_messages * (to.standing.favoured ? favoured_messages : 1);
-  if (to.backlog.bytes() > limits.backlog_bytes || to.backlog.messages() > most)
+  // Who sends too much to the service is held back instead.
+  if (to.standing.favoured) return;
+  if (to.backlog.bytes() > limits.backlog_bytes || to.backlog.messages() > limits.backlog_messages)
     table_.drop(to, HubDrop::slow_reader);
 }
 

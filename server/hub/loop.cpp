@@ -193,14 +193,13 @@ void HubLoop::pause_accepting(HubTime now) {
 
 void HubLoop::settle(HubTime now) {
   next_due_.reset();
-  const bool behind = turns_.service_is_behind();
   for (auto& [id, c] : table_.all()) {
     c.in.ready = c.out.ready = false;
     const auto due = hub_due(c.standing, table_.limits());
     if (!c.ended && due && due->at <= now) table_.drop(c, due->why);
     if (!c.ended && until_) stop_reading(c, now);
     if (c.ended) forget(c);
-    else watch(c, behind, now);
+    else watch(c, now);
     if (!c.ended && due) earliest(next_due_, due->at);
   }
   if (!turns_.rests()) remove_ended(longest_parting);
@@ -208,20 +207,30 @@ void HubLoop::settle(HubTime now) {
   counts_ = table_.counts();
 }
 
-void HubLoop::watch(HubConnection& c, bool behind, HubTime now) {
-  c.standing.favoured = c.port != 0 && c.port == favoured_port_;
-  const bool much = !c.standing.favoured &&
-                    ((behind && c.in.had_more) || c.usage.is_much(now, c.standing.uses_much));
+void HubLoop::watch(HubConnection& c, HubTime now) {
+  const bool favoured = c.port != 0 && c.port == favoured_port_;
+  if (favoured && !c.standing.favoured) table_.favour(c);
+  c.standing.favoured = favoured;
+  hold_back(c, now);
+  const bool much = !favoured && c.usage.is_much(now, c.standing.uses_much);
   if (much != c.standing.uses_much) {
     forget(c);
     c.standing.uses_much = much;
   }
-  const uint32_t events = (c.reading ? uint32_t(EPOLLIN | EPOLLRDHUP) : 0u) |
+  const uint32_t events = (c.reading && !c.held_back ? uint32_t(EPOLLIN | EPOLLRDHUP) : 0u) |
                           (c.backlog.empty() ? 0u : uint32_t(EPOLLOUT));
+  // The system would report without end that the other side of one who is held back is gone.
+  if (c.held_back && events == 0) return forget(c);
   if (c.watched == events) return;
   if (poller_.watch(c.socket.get(), c.id, events, c.watched.has_value(), order_of(c)))
     c.watched = events;
   else table_.drop(c, HubDrop::out_of_memory);
+}
+
+/// It is not the fault of who is held back that its message does not go on.
+void HubLoop::hold_back(HubConnection& c, HubTime now) {
+  c.held_back = !until_ && table_.holds_back(c, c.held_back);
+  if (c.held_back) c.standing.partial_grew = now;
 }
 
 void HubLoop::forget(HubConnection& c) {

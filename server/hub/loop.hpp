@@ -43,7 +43,8 @@ class HubLoop {
   void pause_accepting(HubTime now);
   void settle(HubTime now);
   void remove_ended(HubClock::duration longest);
-  void watch(HubConnection& connection, bool behind, HubTime now);
+  void watch(HubConnection& connection, HubTime now);
+  void hold_back(HubConnection& connection, HubTime now);
   void forget(HubConnection& connection);
   void begin_to_finish(HubTime now);
   void stop_reading(HubConnection& connection, HubTime now);

@@ -1,6 +1,9 @@
 #include "server/hub/table.hpp"
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <utility>
@@ -17,6 +20,10 @@ size_t affordable_connections(size_t wanted) {
     wanted = std::min<size_t>(wanted, limit.rlim_cur / 2);
   return std::max<size_t>(wanted, 1);
 }
+
+constexpr int most_unsent = 16 << 10;  // bytes
+// What waits for the service of one sender before more of it is understood, and of all senders.
+constexpr size_t full_messages = 64, full_bytes = 64 << 10, crowded_bytes = 16 << 20;
 
 bool has_ended(const std::pair<const uint64_t, HubConnection>& entry) { return entry.second.ended; }
 
@@ -131,8 +138,36 @@ void HubTable::keep_queue_small() {
     if (release_one_ended()) continue;
     HubConnection* const worst = heaviest(waiting);
     if (!worst) break;
-    drop(*worst, HubDrop::slow_reader);
+    if (!drop_heaviest_share(*worst)) drop(*worst, HubDrop::slow_reader);
   }
+}
+
+/// False where the connection has none.
+bool HubTable::drop_heaviest_share(HubConnection& receiver) {
+  const auto sender = receiver.backlog.forget_heaviest();
+  if (!sender) return false;
+  receiver.standing.backlog_bytes = receiver.backlog.bytes();
+  if (HubConnection* const c = find(*sender)) drop(*c, HubDrop::crowds_service);
+  else ++counts_.dropped(HubDrop::crowds_service);
+  return true;
+}
+
+void HubTable::favour(HubConnection& c) {
+  favoured_ = c.id;
+  c.standing.favoured = true;
+  c.backlog.share_fairly();
+  // What stands in the buffers of the system can no longer give way to others.
+  setsockopt(c.socket.get(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent, sizeof most_unsent);
+}
+
+bool HubTable::holds_back(const HubConnection& c, bool before) {
+  const HubConnection* const service = favoured_ ? find(*favoured_) : nullptr;
+  if (!service || service->ended || c.standing.favoured) return false;
+  const HubFairQueue::Share share = service->backlog.share(c.id);
+  if (service->backlog.bytes() > crowded_bytes)
+    return share.messages > 0 || c.standing.partial_bytes > full_bytes;
+  const size_t part = before ? 2 : 1;
+  return share.messages > full_messages / part || share.bytes > full_bytes / part;
 }
 
 size_t HubTable::pattern_cost() const {

@@ -2,6 +2,7 @@
 // The connections of a hub, and what they may take together.
 
 #include <map>
+#include <optional>
 
 #include "server/hub/connection.hpp"
 
@@ -33,8 +34,15 @@ class HubTable {
   /// Says how much of an unfinished message a connection holds now; drops those that have filled
   /// the room for these longest while there is too much of it.
   void set_partial(HubConnection& connection, HubTime now);
-  /// Drops those with most waiting for them while too much is queued in all.
+  /// While too much is queued in all, drops those with most waiting for them, and whoever sent most
+  /// of what waits for the service.
   void keep_queue_small();
+  /// Says which connection is the service's own: what others send to it waits in fair shares, and
+  /// who sends it more than it reads is held back.
+  void favour(HubConnection& connection);
+  /// True where so much of what a connection sent waits for the service that no more of it is to be
+  /// understood now. `before`: what was said before, so that nobody goes to and fro.
+  bool holds_back(const HubConnection& connection, bool before);
   /// Drops those with the costliest patterns while these cost too much in all.
   void keep_patterns_cheap();
 
@@ -56,6 +64,7 @@ class HubTable {
   HubConnection* heaviest(const Weight& weight);
   HubConnection* least_useful(HubTime now);
   bool release_one_ended();
+  bool drop_heaviest_share(HubConnection& receiver);
   size_t pattern_cost() const;
 
   HubLimits limits_;
@@ -63,6 +72,7 @@ class HubTable {
   size_t held_ = 0;     // by messages and backlogs; outlives the connections
   size_t partial_ = 0;  // sum of the standings' partial_bytes
   uint64_t next_id_ = 0;
+  std::optional<uint64_t> favoured_;
   std::map<uint64_t, HubConnection> connections_;
 };
 

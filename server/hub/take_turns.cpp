@@ -8,9 +8,6 @@ namespace genio {
 namespace {
 
 constexpr std::chrono::microseconds longest_turn{200};
-// What the service has to read before floods wait for it, and how long they do at a time.
-constexpr size_t much_to_read = 256 << 10, many_to_read = 512;
-constexpr std::chrono::milliseconds unheard_time{2};
 
 HubClock::duration thread_time() {
   timespec time{};
@@ -40,25 +37,14 @@ void HubTurns::queue(HubConnection& c, HubDirection& direction, bool ready, HubT
                       &c, &direction});
 }
 
-bool HubTurns::service_is_behind() const {
-  const auto& all = table_.all();
-  return !pace_.ended() && std::any_of(all.begin(), all.end(), [](const auto& entry) {
-    const HubConnection& c = entry.second;
-    return c.standing.favoured && !c.ended &&
-           (c.backlog.bytes() > much_to_read || c.backlog.messages() > many_to_read);
-  });
-}
-
-/// Queues those who wait. While the service has much to read, floods are not heard, but sent to.
+/// Queues those who wait. Who is held back is not heard, but sent to.
 void HubTurns::collect(HubTime now) {
   waiting_.clear();
-  const bool behind = service_is_behind(), resting = rests();
+  const bool resting = rests();
   for (auto& [id, c] : table_.all()) {
     if (c.ended || (resting && c.standing.uses_much)) continue;
-    const bool wants = c.in.ready || !c.unread.empty(), heard = !(behind && c.standing.uses_much);
-    queue(c, c.in, wants && heard, now);
+    queue(c, c.in, (c.in.ready || !c.unread.empty()) && !c.held_back, now);
     queue(c, c.out, c.out.ready && !c.backlog.empty(), now);
-    if (wants && !heard) pace_.worked(unheard_time);
   }
 }
 
@@ -86,11 +72,10 @@ void HubTurns::give(HubTime begin) {
 }
 
 bool HubTurns::more_to_understand() const {
-  const bool only_some = rests() || service_is_behind();
   const auto& all = table_.all();
-  return std::any_of(all.begin(), all.end(), [only_some](const auto& entry) {
+  return std::any_of(all.begin(), all.end(), [resting = rests()](const auto& entry) {
     const HubConnection& c = entry.second;
-    return !c.ended && !c.unread.empty() && !(only_some && c.standing.uses_much);
+    return !c.ended && !c.unread.empty() && !c.held_back && !(resting && c.standing.uses_much);
   });
 }
 

@@ -24,8 +24,6 @@ class HubTurns {
   bool rests() const { return pace_.rests(); }
   HubPace& pace() { return pace_; }
   const HubPace& pace() const { return pace_; }
-  /// True while the service has much to read. Who sends more than a turn takes is not heard then.
-  bool service_is_behind() const;
   /// True where somebody has a turn to come that no event will tell of, as things stand now.
   bool more_to_understand() const;
 

@@ -23,7 +23,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds longest_attempt{1000};  // from its start to the hub's whole greeting
 constexpr milliseconds longest_stall{5000};    // of a hub that takes nothing of what is sent
 constexpr int longest_pause_ms = 100;          // between two tries where nobody listens
-constexpr size_t read_at_once = 64 << 10;      // bytes, before others have their turn
+constexpr size_t read_at_once = 32 << 10;      // bytes
+constexpr int receive_buffer = 32 << 10;       // bytes of the system's
 
 int ms_of(std::chrono::steady_clock::duration time) {
   return int(std::max<int64_t>(0, std::chrono::ceil<milliseconds>(time).count()));
@@ -76,6 +77,7 @@ void TcpqLink::close() {
   socket_.reset();
   stage_ = Stage::closed;
   ++connections_;
+  unread_ = {};
   parser_ = parser_of_hub();
 }
 
@@ -88,6 +90,8 @@ void TcpqLink::begin() {
   if (!host || inet_pton(AF_INET, host->c_str(), &address.sin_addr) != 1) return;
   socket_.reset(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket_) return;
+  // What waits in it can no longer give way to what others send.
+  setsockopt(socket_.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
   began_ = Clock::now();
   stage_ = Stage::connecting;
   if (::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
@@ -161,24 +165,24 @@ bool TcpqLink::send(const std::vector<char>& bytes) {
   return true;
 }
 
-/// Reads and handles what is there; true where a handler was called.
+/// Handles what is there, up to the first message that somebody wants; true where there was one.
 bool TcpqLink::receive() {
-  const auto n = recv(socket_.get(), buffer_.data(), buffer_.size(), 0);
-  if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return false;
-  if (n <= 0) return close(), false;
-  answer_at_once(socket_.get(), TCP_QUICKACK);  // the system forgets it
-  std::string_view bytes(buffer_.data(), size_t(n));
-  bool called = false;
+  if (unread_.empty()) {
+    const auto n = recv(socket_.get(), buffer_.data(), buffer_.size(), 0);
+    if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return false;
+    if (n <= 0) return close(), false;
+    answer_at_once(socket_.get(), TCP_QUICKACK);  // the system forgets it
+    unread_ = {buffer_.data(), size_t(n)};
+  }
   // A handler may publish, and so find the hub gone.
   for (const uint64_t connection = connections_; connection == connections_;) {
-    const auto event = parser_.next(bytes);
-    if (!event) {
-      if (parser_.fault() != HubParser::Fault::none) close();
-      break;
-    }
-    called |= take(*event);
+    const auto event = parser_.next(unread_);
+    if (event && take(*event)) return true;
+    if (event) continue;
+    if (parser_.fault() != HubParser::Fault::none) close();
+    break;
   }
-  return called;
+  return false;
 }
 
 bool TcpqLink::take(const HubEvent& event) {
@@ -207,10 +211,11 @@ bool TcpqLink::wait(int timeout_ms, std::span<const int> others) {
   if (stage_ == Stage::closed) begin();
   while (stage_ != Stage::closed) {
     polled.push_back({socket_.get(), awaited(), 0});
-    const int ready = poll(polled.data(), polled.size(), patience_ms(until));
+    const bool more = connected() && !unread_.empty();
+    const int ready = poll(polled.data(), polled.size(), more ? 0 : patience_ms(until));
     const bool came = ready > 0 && polled.back().revents != 0;
     polled.pop_back();
-    const bool called = came && connected() && receive();
+    const bool called = (came || more) && connected() && receive();
     if (!connected()) go_on();
     if (called || ready < 0 || ready > int(came) || Clock::now() >= until) return connected();
   }

@@ -26,6 +26,7 @@ class TcpqLink final : public LinkTransport {
   void subscribe(const std::string& channel, Handler handler) override;
   /// False at once while there is no connection; wait() makes one.
   bool publish(const std::string& channel, const std::vector<uint8_t>& bytes) override;
+  /// Handles one message at most, so that what it leads to does not wait for the next ones.
   bool wait(int timeout_ms, std::span<const int> others) override;
   bool connected() const override { return stage_ == Stage::open; }
   uint16_t local_port() const override;
@@ -56,6 +57,7 @@ class TcpqLink final : public LinkTransport {
   uint64_t connections_ = 0;   // that ended
   HubParser parser_;
   std::vector<char> buffer_;
+  std::string_view unread_ = {};  // of the buffer
   std::list<Subscription> subscriptions_;
 };
 

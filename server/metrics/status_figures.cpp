@@ -57,9 +57,10 @@ const char* name_of(UdpmDrop why) {
 }
 
 const char* name_of(HubDrop why) {
-  static constexpr const char* names[] = {"slow_reader", "not_greeted",        "stalled",
-                                          "displaced",   "refused_pattern",    "too_large",
-                                          "malformed",   "out_of_descriptors", "out_of_memory"};
+  static constexpr const char* names[] = {"slow_reader",   "not_greeted",        "stalled",
+                                          "displaced",     "refused_pattern",    "too_large",
+                                          "malformed",     "out_of_descriptors", "out_of_memory",
+                                          "crowds_service"};
   static_assert(std::size(names) == size_t(HubDrop::count));
   return names[size_t(why)];
 }

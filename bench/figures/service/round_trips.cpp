@@ -10,6 +10,7 @@
 #include <random>
 #include <thread>
 
+#include "bench/figures/service/fresh_status.hpp"
 #include "forward/base/elapsed.hpp"
 #include "server/client.hpp"
 
@@ -113,7 +114,7 @@ Json beside_long(const std::string& url, const shape_request_t& lasting,
       longest = std::max(longest, 1e3 * reply->waited_s);
     for (int n = 0; n < 10; ++n) {
       const Stopwatch watch;
-      client.status(patience_s);
+      fresh_status(client, patience_s);
       status_ms.push_back(1e3 * watch.seconds());
     }
   }

@@ -26,6 +26,10 @@ void be_a_server(std::vector<ServedModel>& models, const ServerSetup& setup, int
   if (const uint16_t port = local_tcpq_port(setup.url)) hub.emplace(port);
   ServiceOptions options;
   options.url = setup.url, options.journal = setup.journal;
+  if (hub) {
+    options.hub = [&] { return hub->counts(); };
+    options.connected_from = [&](uint16_t port) { hub->favour(port); };
+  }
   options.workers.count = setup.workers;
   options.limits.waiting = 1000;
   std::ofstream computed(setup.computed, std::ios::app);

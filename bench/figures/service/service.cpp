@@ -9,11 +9,13 @@
 #include "bench/figures/service/kills.hpp"
 #include "bench/figures/service/questions.hpp"
 #include "bench/figures/service/round_trips.hpp"
+#include "bench/figures/service/under_attack.hpp"
 
 namespace genio::bench {
 namespace {
 
 constexpr int distinct_questions = 20, usual_requests = 400;
+constexpr double attacked_s = 5;  // by each kind
 
 /// Goes with the object.
 struct ScratchFolder {
@@ -61,6 +63,10 @@ Json run_service(const BenchOptions& o, const Progress& progress) {
     figures.update(beside_long(two.url(), lasting, questions));
     progress("deadlines are measured");
   }
+  if (asked_for("attacks")) {
+    if (!asked_for("overhead") && !asked_for("throughput")) one.start();
+    figures.update(under_attack(one.url(), questions.front(), attacked_s, progress));
+  }
   if (asked_for("kills")) {
     killed.start();
     KillPlan plan;
@@ -73,14 +79,15 @@ Json run_service(const BenchOptions& o, const Progress& progress) {
 }  // namespace
 
 Benchmark service_bench() {
-  return {.name = "service",
-          .about = "Requests over LCM on 127.0.0.1: overhead, throughput, deadlines, and kills",
-          .options = {{"--sample", "requests (400)"},
-                      {"--seed", "which workers are killed"},
-                      {"--only",
-                       "overhead, throughput, deadlines or kills (over LCM_DEFAULT_URL, if "
-                       "that is set)"}},
-          .run = run_service};
+  return {
+      .name = "service",
+      .about = "Requests over LCM on 127.0.0.1: overhead, throughput, deadlines, attacks and kills",
+      .options = {{"--sample", "requests (400)"},
+                  {"--seed", "which workers are killed"},
+                  {"--only",
+                   "overhead, throughput, deadlines, attacks or kills (these over "
+                   "LCM_DEFAULT_URL, if that is set)"}},
+      .run = run_service};
 }
 
 }  // namespace genio::bench

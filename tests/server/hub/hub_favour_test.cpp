@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
+#include "forward/base/elapsed.hpp"
 #include "server/hub/hub.hpp"
 #include "server/hub/protocol/tcpq.hpp"
 #include "tests/server/hub/raw_client.hpp"
@@ -81,6 +83,92 @@ TEST(FavouredConnection, FloodsWaitWhileItHasMuchToRead) {
       },
       milliseconds(20000)));
   EXPECT_EQ(hub.counts().dropped(HubDrop::slow_reader), 0u);
+}
+
+/// Publishes whenever the hub takes it, in a thread of its own.
+class LightFlood {
+ public:
+  LightFlood(uint16_t port, size_t connections)
+      : thread_([this, port, connections] {
+          std::vector<RawClient> clients;
+          for (size_t k = 0; k < connections; ++k) clients.push_back(RawClient::greeted(port));
+          const auto bytes = tcpq::publication("SERVICE", std::string(200, 'x'));
+          while (!stop_) {
+            for (RawClient& c : clients) c.send_some({bytes.data(), bytes.size()});
+            // As many who send little each do: none of them has more ready than a turn takes.
+            std::this_thread::sleep_for(std::chrono::microseconds(100));
+          }
+        }) {}
+  ~LightFlood() {
+    stop_ = true;
+    thread_.join();
+  }
+  LightFlood(const LightFlood&) = delete;
+  LightFlood& operator=(const LightFlood&) = delete;
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+TEST(FavouredConnection, ManyWhoSendALittleEachDoNotCostItItsPlace) {
+  HubLimits limits;
+  limits.backlog_bytes = 64 << 10;
+  Hub hub(0, limits);
+  RawClient service = service_of(hub);
+  {
+    const LightFlood flood(hub.port(), 20);
+    std::this_thread::sleep_for(milliseconds(1000));  // in which the service computes
+  }
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(service.receive());
+  EXPECT_EQ(hub.counts().dropped(HubDrop::slow_reader), 0u);
+}
+
+TEST(FavouredConnection, WhoSendsOneMessageGoesBeforeThoseOfWhomMuchWaits) {
+  Hub hub(0);
+  RawClient service = service_of(hub), honest = RawClient::greeted(hub.port());
+  const LightFlood flood(hub.port(), 20);
+  ASSERT_TRUE(eventually([&] { return hub.counts().messages_in > 1000; }));
+  honest.publish("SERVICE", "honest");
+  ASSERT_TRUE(eventually([&] { return hub.counts().connections == 22; }));
+  std::this_thread::sleep_for(milliseconds(200));
+  int before = 0;
+  while (service.receive().value().payload != "honest") ++before;
+  // What is in the buffers of the system, and one of each who floods; of 20 some 64 each wait.
+  EXPECT_LT(before, 800);
+}
+
+TEST(FavouredConnection, WhoLeavesWhileHeldBackKeepsNobodyBusy) {
+  Hub hub(0);
+  const RawClient service = service_of(hub);
+  {
+    RawClient flooder = RawClient::greeted(hub.port());
+    const auto one = tcpq::publication("SERVICE", std::string(1000, 'x'));
+    for (int k = 0; k < 20000; ++k)
+      if (flooder.send_some({one.data(), one.size()}) < ssize_t(one.size())) break;
+    std::this_thread::sleep_for(milliseconds(100));
+  }  // leaves with unread bytes of the hub, which resets the connection
+  std::this_thread::sleep_for(milliseconds(500));
+  const double before = processor_seconds();
+  std::this_thread::sleep_for(milliseconds(300));
+  EXPECT_LT(processor_seconds() - before, 0.15);
+}
+
+TEST(FavouredConnection, LargeMessagesOfManyWaitForItWithinTheirRoom) {
+  Hub hub(0);
+  RawClient service = service_of(hub);
+  std::vector<RawClient> senders;
+  for (int k = 0; k < 30; ++k) senders.push_back(RawClient::greeted(hub.port()));
+  const auto large = tcpq::publication("SERVICE", std::string(4 << 20, 'x'));
+  std::vector<size_t> sent(senders.size());
+  for (int round = 0; round < 400; ++round)
+    for (size_t k = 0; k < senders.size(); ++k) {
+      const size_t at = sent[k] % large.size();
+      sent[k] += size_t(
+          std::max<ssize_t>(0, senders[k].send_some({large.data() + at, large.size() - at})));
+    }
+  EXPECT_LT(hub.counts().queued_bytes, HubLimits{}.queued_bytes);
+  for (int k = 0; k < 4; ++k) EXPECT_TRUE(service.receive());
 }
 
 }  // namespace

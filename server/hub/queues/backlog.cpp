@@ -1,4 +1,4 @@
-#include "server/hub/backlog.hpp"
+#include "server/hub/queues/backlog.hpp"
 
 #include <sys/socket.h>
 #include <sys/uio.h>
@@ -6,40 +6,57 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <new>
 #include <utility>
 
 namespace genio {
 namespace {
 
-// What the allocator and the queue take beside the bytes, so that tiny messages count as well.
-constexpr size_t message_overhead = 128, entry_overhead = 32;
+// What a queue takes beside the messages, so that tiny ones count as well.
+constexpr size_t entry_overhead = 96;
 constexpr size_t max_pieces = 64;  // messages of one call of sendmsg
+// Of what is sent next; who comes later goes after it.
+constexpr size_t settled_messages = 8;
 
 }  // namespace
 
-HubMessage::HubMessage(std::vector<char> bytes, size_t& held)
-    : bytes_(std::move(bytes)), held_(held) {
-  held_ += cost();
-}
-
-HubMessage::~HubMessage() { held_ -= cost(); }
-
-size_t HubMessage::cost() const { return bytes_.capacity() + message_overhead; }
-
-void HubBacklog::push(std::shared_ptr<const HubMessage> message) {
+void HubBacklog::push(std::shared_ptr<const HubMessage> message, uint64_t sender) {
   const size_t size = message->bytes().size();
-  queue_.push_back(std::move(message));
+  if (fair_) shared_.push(sender, std::move(message));
+  else queue_.push_back(std::move(message));
   bytes_ += size + entry_overhead;
   held_ += entry_overhead;
 }
 
 void HubBacklog::clear() {
-  held_ -= queue_.size() * entry_overhead;
+  held_ -= messages() * entry_overhead;
   queue_.clear();
+  shared_.clear();
   sent_of_front_ = bytes_ = 0;
 }
 
+std::optional<uint64_t> HubBacklog::forget_heaviest() {
+  if (shared_.empty()) return std::nullopt;
+  const HubFairQueue::Forgotten forgotten = shared_.forget_heaviest();
+  const size_t overhead = forgotten.share.messages * entry_overhead;
+  bytes_ -= forgotten.share.bytes + overhead;
+  held_ -= overhead;
+  return forgotten.sender;
+}
+
+void HubBacklog::take_from_shares() {
+  while (!shared_.empty() && queue_.size() < settled_messages) {
+    try {
+      queue_.emplace_back();
+    } catch (const std::bad_alloc&) {
+      return;  // they wait until there is memory
+    }
+    queue_.back() = shared_.pop();
+  }
+}
+
 HubBacklog::Sent HubBacklog::send_to(int socket, size_t most) {
+  take_from_shares();
   std::array<iovec, max_pieces> pieces;
   size_t count = 0, total = 0, skipped = sent_of_front_;
   for (const auto& message : queue_) {

@@ -1,4 +1,4 @@
-#include "server/hub/backlog.hpp"
+#include "server/hub/queues/backlog.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

@@ -1,0 +1,13 @@
+#pragma once
+#include "bench/figures/service/server_process.hpp"
+#include "bench/problems/benchmark.hpp"
+
+namespace genio::bench {
+
+/// For each attack, for so long: `status_ms_median`, `status_ms_p99` and `status_ms_worst` of an
+/// honest client that asks every 10 ms, `unanswered` of its `asked`, and what the attackers sent
+/// [MB]. `memory_mb` is the most that the service took at any time.
+Json under_attack(const std::string& url, const shape_request_t& question, double seconds_each,
+                  const Progress& progress);
+
+}  // namespace genio::bench
