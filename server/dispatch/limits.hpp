@@ -3,9 +3,6 @@
 
 namespace genio {
 
-/// Computations of one request that may take a worker with them.
-inline constexpr int most_tries = 2;
-
 /// What is kept for clients at most.
 struct DispatchLimits {
   int waiting = 256;                    ///< requests; more are refused with a reply
