@@ -1,6 +1,6 @@
-#include "tests/fuzz/fuzz_reader.hpp"
-
 #include <stdexcept>
+
+#include "tests/fuzz/fuzz_reader.hpp"
 
 namespace genio::test {
 
