@@ -165,18 +165,19 @@ class DispatchPlay {
     return true;
   }
 
+  /// `id` may be the key of what runs, so it is forgotten last.
   void finish(const std::string& id, const char* status) {
     command_reply_t reply{};
     reply.id = id, reply.status = status, reply.verdict = "good";
-    computed_ += running_.erase(id) > 0;
     told_unwanted_.erase(id);
     dispatcher_.finish(id, reply, std::vector<uint8_t>(script_.byte() % 128), now_);
+    computed_ += running_.erase(id) > 0;
   }
 
   void lose(const std::string& id) {
-    returned_ += running_.erase(id);
     told_unwanted_.erase(id);
     dispatcher_.lost(id, "killed", now_);
+    returned_ += running_.erase(id);
   }
 
   void keep_best(const std::string& id) {

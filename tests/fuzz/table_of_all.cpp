@@ -1,7 +1,5 @@
 #include "tests/fuzz/fuzz_reader.hpp"
 
-#include <stdexcept>
-
 namespace genio::test {
 
 const std::vector<FuzzReader>& fuzz_readers() {
@@ -13,15 +11,6 @@ const std::vector<FuzzReader>& fuzz_readers() {
     return all;
   }();
   return readers;
-}
-
-const FuzzReader& fuzz_reader(const std::string& name) {
-  std::string names;
-  for (const FuzzReader& reader : fuzz_readers()) {
-    if (reader.name == name) return reader;
-    names += " " + reader.name;
-  }
-  throw std::runtime_error("'" + name + "' is no reader; expected one of" + names);
 }
 
 }  // namespace genio::test
