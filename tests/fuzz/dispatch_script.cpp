@@ -205,7 +205,8 @@ class DispatchPlay {
   void check() {
     for (const OutgoingMessage& message : dispatcher_.take_outgoing().messages) {
       std::string why;
-      const auto& [channel, bytes, acknowledged] = message;
+      const std::string& channel = message.channel;
+      const std::vector<uint8_t>& bytes = message.bytes;
       // Clients of earlier versions get replies of theirs.
       if (const auto reply = decode_checked<command_reply_t>(bytes.data(), bytes.size(), why))
         owed_.erase({channel.substr(channel.find('.') + 1), reply->id});
