@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "forward/statics/sensitivity.hpp"
@@ -30,11 +31,20 @@ SolveOptions options() {
   return o;
 }
 
+/// Whether force and slope at two depths belong to one smooth curve: tissue may fold and snap.
+bool joined(const CurvePoint& a, const CurvePoint& b) {
+  constexpr double jump = 0.04;
+  const double expected = a.force + 0.5 * (b.depth - a.depth) * (a.slope + b.slope);
+  return std::abs(b.force - expected) < jump * std::max(std::abs(a.force), std::abs(b.force));
+}
+
 class CurveSolver {
  public:
   CurveSolver(const IndentationModel& m, const BlockTissue& tissue, Workspace& ws,
               ForceCurve& curve)
       : m_(m), tissue_(tissue), ws_(ws), curve_(curve) {}
+
+  const std::string& reason() const { return reason_; }
 
   /// From `from` to `depth`, in halves where one step does not do. False where that fails.
   bool reach(Place& from, double depth, const Positions* start, CurvePoint& point, int halvings) {
@@ -76,10 +86,6 @@ class CurveSolver {
     return true;
   }
 
- public:
-  const std::string& reason() const { return reason_; }
-
- private:
   const IndentationModel& m_;
   const BlockTissue& tissue_;
   Workspace& ws_;
@@ -101,6 +107,13 @@ ForceCurve solve_force_curve(const IndentationModel& m, const BlockTissue& tissu
     if (!solver.reach(at, depths[i], known ? &near->points[i].x : nullptr, point, 0)) {
       curve.message = fmt::format("no equilibrium at a depth of {:.3g} mm: {}", 1e3 * depths[i],
                                   solver.reason());
+      break;
+    }
+    if (!curve.points.empty() && !joined(curve.points.back(), point)) {
+      curve.message = fmt::format(
+          "the tissue snaps to another shape between depths of {:.3g} and "
+          "{:.3g} mm, where its edge folds",
+          1e3 * curve.points.back().depth, 1e3 * depths[i]);
       break;
     }
     curve.points.push_back(std::move(point));
