@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "cli/command_line/command_line.hpp"
+#include "cli/indentation/indent.hpp"
 #include "cli/service/key.hpp"
 #include "cli/service/request.hpp"
 #include "cli/service/serve.hpp"
@@ -53,6 +54,7 @@ int main(int argc, char** argv) {
          {"corpus", "Every recording of a table, here or on a cluster", add_corpus},
          {"discover", "What a model misses, from measured shapes under several conditions",
           add_discover},
+         {"indent", "Tissue constants from an indentation experiment", add_indent},
          {"serve", "Answer shape requests over LCM", add_serve},
          {"request", "Ask a server", add_request},
          {"key", "Make a key that a server and its clients share", add_key},

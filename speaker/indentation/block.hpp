@@ -11,9 +11,9 @@ namespace genio {
 
 /// How fine the block is meshed.
 struct BlockGrid {
-  int core = 3;          ///< cells along a side of the square about the axis
-  double edge = 0.08;    ///< of the cells at the edge of the contact, over its radius
-  double growth = 1.35;  ///< of cells from one to the next, away from the contact
+  int core = 3;         ///< cells along a side of the square about the axis
+  double edge = 0.08;   ///< of the cells at the edge of the contact, over its radius
+  double growth = 1.2;  ///< of cells from one to the next, away from the contact
 };
 
 /// The quarter x >= 0, y >= 0 of a block whose bottom lies in z = 0. Rings about the axis become

@@ -99,6 +99,7 @@ ForceCurve solve_force_curve(const IndentationModel& m, const BlockTissue& tissu
                              std::span<const double> depths, Workspace& ws,
                              const ForceCurve* near) {
   ForceCurve curve;
+  const bool sharp = m.experiment.indenter != Indenter::sphere;
   CurveSolver solver(m, tissue, ws, curve);
   Place at{0, m.model.rest, Vector::Zero(m.model.rest.size())};
   for (size_t i = 0; i < depths.size(); ++i) {
@@ -109,7 +110,7 @@ ForceCurve solve_force_curve(const IndentationModel& m, const BlockTissue& tissu
                                   solver.reason());
       break;
     }
-    if (!curve.points.empty() && !joined(curve.points.back(), point)) {
+    if (sharp && !curve.points.empty() && !joined(curve.points.back(), point)) {
       curve.message = fmt::format(
           "the tissue snaps to another shape between depths of {:.3g} and "
           "{:.3g} mm, where its edge folds",

@@ -8,6 +8,15 @@
 
 namespace genio {
 
+ForceData scattered(const ForceData& exact, double scatter, unsigned seed) {
+  ForceData d = exact;
+  d.sd = scatter * exact.force;
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  for (Eigen::Index i = 0; i < d.force.size(); ++i) d.force[i] += (*d.sd)[i] * normal(random);
+  return d;
+}
+
 ForceData simulated_data(const Experiment& e, const BlockTissue& tissue, double depth, int rows,
                          double scatter, unsigned seed, const BlockGrid& grid) {
   ForceData d;
@@ -21,13 +30,7 @@ ForceData simulated_data(const Experiment& e, const BlockTissue& tissue, double 
   for (size_t k = 0; k < curve.points.size(); ++k)
     at_nodes[Eigen::Index(k)] = curve.points[k].force;
   d.force = between.weights * at_nodes;
-  if (scatter > 0) {
-    d.sd = scatter * d.force;
-    std::mt19937 random(seed);
-    std::normal_distribution<double> normal;
-    for (Eigen::Index i = 0; i < rows; ++i) d.force[i] += (*d.sd)[i] * normal(random);
-  }
-  return d;
+  return scatter > 0 ? scattered(d, scatter, seed) : d;
 }
 
 }  // namespace genio
