@@ -218,8 +218,8 @@ Vector minimise(FitProblem& problem, const Vector& start) {
   std::vector<AboveBound> bounds;
   for (unsigned i = 0; i < n; ++i) bounds.push_back({&objective, Eigen::Index(i)});
   for (AboveBound& b : bounds) optimiser.add_inequality_constraint(bound_of, &b, 1e-9);
-  optimiser.set_xtol_abs(1e-3);
-  optimiser.set_ftol_abs(1e-7);
+  optimiser.set_xtol_abs(5e-3);
+  optimiser.set_ftol_abs(1e-5);
   std::vector<double> z(n, 0.0);
   double least = 0;
   try {

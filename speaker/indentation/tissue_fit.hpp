@@ -11,8 +11,8 @@
 namespace genio {
 
 struct TissueFitOptions {
-  YeohConstants mucosa;     ///< where the experiment has one
-  bool fit_mucosa = false;  ///< else it is as given; its a20 goes with its a10
+  YeohConstants mucosa = {};  ///< where the experiment has one
+  bool fit_mucosa = false;    ///< else it is as given; its a20 goes with its a10
   int most_simulations = 60;
   /// Where no scatter is given: the same part of each force, not the same force everywhere.
   bool relative_scatter = false;

@@ -102,7 +102,9 @@ TEST(CurveBetween, FollowsASmoothCurveToAThousandth) {
     nodes[Eigen::Index(k)] = force(between.nodes[k]);
   const Vector found = between.weights * nodes;
   for (Eigen::Index i = 0; i < depths.size(); ++i)
-    if (depths[i] > 0.2e-3) EXPECT_NEAR(found[i] / force(depths[i]), 1, 1e-3);
+    if (depths[i] > 0.2e-3) {
+      EXPECT_NEAR(found[i] / force(depths[i]), 1, 1e-3);
+    }
 }
 
 }  // namespace
