@@ -83,19 +83,19 @@ ForceColumns force_columns(const std::vector<std::string>& header, const TablePl
 }
 
 double force_number(const std::vector<std::string>& fields, int column, const char* name,
-                    const TablePlace& at) {
+                    TableNumbers& numbers, const TablePlace& at) {
   double v = 0;
-  if (!parse_number(fields[size_t(column)], v))
+  if (!numbers.parse(fields[size_t(column)], v))
     at.fail(fmt::format("{}: {}; expected a number", name, in_quotes(fields[size_t(column)])));
   return v;
 }
 
 ForceRow force_row(const std::string& line, char separator, const ForceColumns& c,
-                   const TablePlace& at) {
+                   TableNumbers& numbers, const TablePlace& at) {
   const auto fields = fields_of(line, separator);
   if (fields.size() != c.count) at.fail(other_count(fields.size(), "the header", c.count, line));
-  ForceRow r{force_number(fields, c.depth, "depth_mm", at),
-             force_number(fields, c.force, "force_N", at), 0, at.number()};
+  ForceRow r{force_number(fields, c.depth, "depth_mm", numbers, at),
+             force_number(fields, c.force, "force_N", numbers, at), 0, at.number()};
   if (r.depth_mm < 0)
     at.fail(fmt::format("depth_mm: {:g}; expected 0 or more, from the first touch inwards",
                         r.depth_mm));
@@ -106,7 +106,7 @@ ForceRow force_row(const std::string& line, char separator, const ForceColumns& 
     at.fail(fmt::format("force_N: {:g}; expected at most {:g} N (are these other units?)", r.force,
                         largest_force));
   if (c.sd >= 0) {
-    r.sd = force_number(fields, c.sd, "sd", at);
+    r.sd = force_number(fields, c.sd, "sd", numbers, at);
     if (!(r.sd > 0 && r.sd < largest_force))
       at.fail(fmt::format("sd: {:g}; expected the force's standard deviation, above 0 N", r.sd));
   }
@@ -176,12 +176,13 @@ ForceFile read_force_file(const std::string& path) {
   }
   const char separator = separator_of(line);
   const ForceColumns columns = force_columns(fields_of(line, separator), lines);
+  TableNumbers numbers(separator);
   std::vector<ForceRow> rows;
   while (lines.next_filled(line)) {
     if (line.starts_with('#')) continue;
     if (rows.size() == most_rows)
       lines.fail(fmt::format("more than {} rows; expected at most that many", most_rows));
-    rows.push_back(force_row(line, separator, columns, lines));
+    rows.push_back(force_row(line, separator, columns, numbers, lines));
   }
   if (rows.empty()) throw InputError(path + ": no row below the header");
   check_order(rows, path);

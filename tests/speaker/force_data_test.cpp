@@ -87,6 +87,12 @@ TEST(ForceData, ThatAreWrongAreRefusedWithLineFieldAndWhatWasExpected) {
         << complaint << " | " << complaint_about(text);
 }
 
+TEST(ForceData, MayHaveDecimalCommasBetweenSemicolons) {
+  const ForceFile f = read_text("force_N;depth_mm\n0,01;1\n0,03;2\n0,06;3\n0,1;4\n0,15;5,5\n");
+  EXPECT_DOUBLE_EQ(f.data.depth[4], 5.5e-3);
+  EXPECT_DOUBLE_EQ(f.data.force[0], 0.01);
+}
+
 TEST(ForceData, OfOneDepthMayScatter) {
   EXPECT_EQ(read_text(good + "5,0.153,0.004\n").data.depth.size(), 6);
 }
