@@ -83,11 +83,12 @@ void TcpqLink::close() {
 
 void TcpqLink::begin() {
   const TcpAddress to = tcp_address(url_).value();
-  const auto host = numeric_host(to.host);
+  // A resolver may take long, so that it is asked until it knows the host, and not again.
+  if (!host_) host_ = numeric_host(to.host);
   sockaddr_in address{};
   address.sin_family = AF_INET;  // as LCM
   address.sin_port = htons(to.port);
-  if (!host || inet_pton(AF_INET, host->c_str(), &address.sin_addr) != 1) return;
+  if (!host_ || inet_pton(AF_INET, host_->c_str(), &address.sin_addr) != 1) return;
   socket_.reset(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket_) return;
   // What waits in it can no longer give way to what others send.
