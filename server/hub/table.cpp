@@ -21,7 +21,7 @@ size_t affordable_connections(size_t wanted) {
   return std::max<size_t>(wanted, 1);
 }
 
-constexpr int most_unsent = 16 << 10;  // bytes
+constexpr int most_unsent = 4 << 10;  // bytes
 // What waits for the service of one sender before more of it is understood, and of all senders.
 constexpr size_t full_messages = 64, full_bytes = 64 << 10, crowded_bytes = 16 << 20;
 

@@ -16,7 +16,7 @@ namespace {
 constexpr size_t entry_overhead = 96;
 constexpr size_t max_pieces = 64;  // messages of one call of sendmsg
 // Of what is sent next; who comes later goes after it.
-constexpr size_t settled_messages = 8, settled_bytes = 16 << 10;
+constexpr size_t settled_messages = 8, settled_bytes = 4 << 10;
 
 }  // namespace
 
