@@ -12,7 +12,7 @@ using Point2 = std::array<double, 2>;
 
 /// A punch takes along a part of the cells beyond its edge, as their displacements are linear: on
 /// half spaces and layers its forces are those of a punch so much larger, in parts of a cell.
-constexpr double edge_reach = 0.4;
+constexpr double edge_reach = 0.3;
 
 /// From `from` to `to` in cells that begin with about `first` and grow, none above `most`; both
 /// ends are in it.
