@@ -75,8 +75,7 @@ std::string curve_csv(const ForceData& d, const TissueFit& fit) {
 }
 
 /// The model with the muscle's constants. Its bulk modulus keeps its ratio to a10.
-void write_into(const IndentCommand& o, const TissueFit& fit) {
-  ModelDescription d = read_description(o.model);
+void write_into(const IndentCommand& o, ModelDescription d, const TissueFit& fit) {
   EffectTable& table = d.effects["elasticity"];
   const auto bulk = table.find("kappa"), before = table.find("a10");
   const double ratio = bulk != table.end() && before != table.end() && before->second > 0
@@ -126,11 +125,13 @@ int fit(const IndentCommand& o) {
     options.progress = [](int simulation, double rms) {
       print_line(fmt::format("simulation {}: {:.3g} N RMS", simulation, rms));
     };
+  std::optional<ModelDescription> base;
+  if (!o.into.empty()) base = read_description(o.model);  // what is wrong with it is told at once
   const TissueFit found = fit_tissue(e, data, options);
   make_folder(o.out);
   write_text(o.out + "/result.json", fit_json(e, data, found, 2) + "\n");
   if (found) write_text(o.out + "/curve.csv", curve_csv(data, found));
-  if (found && !o.into.empty()) write_into(o, found);
+  if (found && base) write_into(o, *base, found);
   if (o.json) fmt::print("{}\n", fit_json(e, data, found));
   else if (found) print_fit(e, found);
   if (!found) print_line("genio: indent: " + found.message);
