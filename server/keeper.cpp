@@ -88,6 +88,8 @@ Keeper::~Keeper() {
 void Keeper::hand_over(Outgoing outgoing) {
   const std::lock_guard lock(mutex_);
   append_all(done_.messages, ready_ones(outgoing.messages));
+  if (!done_.messages.empty()) something_done_ = true;
+  if (outgoing.empty()) return;
   if (held_bytes() > most_bytes_) leave_out_the_least(outgoing);
   waiting_bytes_ += bytes_of(outgoing);
   append_all(waiting_.records, std::move(outgoing.records));
@@ -101,6 +103,7 @@ bool Keeper::is_behind() const {
 }
 
 KeptBatch Keeper::collect() {
+  if (!something_done_.exchange(false)) return {};
   uint64_t count = 0;
   [[maybe_unused]] const auto n = read(done_signal_, &count, sizeof count);
   const std::lock_guard lock(mutex_);
@@ -175,6 +178,7 @@ void Keeper::write(Outgoing outgoing) {
     failure_ = unwritten > 0 ? written.failure : "";
     append_all(done_.messages, std::move(published));
     append_all(done_.unkept, std::move(written.unkept));
+    something_done_ = true;
   }
   if (fails_now && failed_) failed_(written.failure);
   const uint64_t one = 1;

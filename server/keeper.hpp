@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -64,9 +65,10 @@ class Keeper {
   const std::function<void(const std::string&)> failed_;
   const size_t most_bytes_;
   int done_signal_;
-  std::vector<Record> put_off_;            // of the thread
-  std::vector<OutgoingMessage> withheld_;  // until what they tell of is written
-  mutable std::mutex mutex_;               // guards what follows
+  std::vector<Record> put_off_;              // of the thread
+  std::vector<OutgoingMessage> withheld_;    // until what they tell of is written
+  std::atomic<bool> something_done_{false};  // spares collect() the lock
+  mutable std::mutex mutex_;                 // guards what follows
   std::condition_variable changed_;
   Outgoing waiting_;
   KeptBatch done_;
