@@ -9,6 +9,7 @@
 #include "cli/service/key.hpp"
 #include "cli/service/request.hpp"
 #include "cli/service/serve.hpp"
+#include "cli/speaker/surface.hpp"
 #include "cli/subcommands/bench.hpp"
 #include "cli/subcommands/corpus.hpp"
 #include "cli/subcommands/discover.hpp"
@@ -53,6 +54,8 @@ int main(int argc, char** argv) {
          {"corpus", "Every recording of a table, here or on a cluster", add_corpus},
          {"discover", "What a model misses, from measured shapes under several conditions",
           add_discover},
+         {"surface", "A bone's surface from slices, a label volume or a finer surface",
+          add_surface},
          {"serve", "Answer shape requests over LCM", add_serve},
          {"request", "Ask a server", add_request},
          {"key", "Make a key that a server and its clients share", add_key},
