@@ -9,7 +9,7 @@
 namespace genio {
 namespace {
 
-constexpr double least_cosine = 0.2;  // between a triangle's normals before and behind
+constexpr double least_cosine = 0.5;  // between a triangle's normals before and behind
 constexpr double least_shape = 0.05;  // 1: of three equal sides
 
 double shape_of_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -1,22 +1,38 @@
 #include "speaker/decimation/distance_guard.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace genio {
+namespace {
 
-DistanceGuard::DistanceGuard(const TriangleSurface& first, const DistanceBounds& bounds)
-    : first_(first), distance_(first), bounds_(bounds), samples_(first.triangles.size()) {
-  std::vector<bool> placed(first.vertices.size(), false);
-  for (size_t t = 0; t < first.triangles.size(); ++t)
-    for (const int v : first.triangles[t])
-      if (!placed[size_t(v)]) {
-        placed[size_t(v)] = true;
-        samples_[t].push_back(v);
-      }
-  for (const Vec3& v : first.vertices) bound_.push_back(bounds.at(v));
+constexpr size_t most_samples = 30000;
+
+}  // namespace
+
+DistanceGuard::DistanceGuard(const TriangleSurface& first, const TriangleSurface& present,
+                             const DeviationScale& scale)
+    : distance_(first), scale_(scale), samples_(present.triangles.size()) {
+  const SurfaceDistance to_present(present);
+  const size_t every = (first.vertices.size() + first.triangles.size()) / most_samples + 1;
+  int near = -1;
+  const auto take = [&](const Vec3& p) {
+    to_present(p, near);
+    samples_[size_t(near)].push_back(int(sample_.size()));
+    sample_.push_back(p);
+    sample_scale_.push_back(scale.at(p));
+  };
+  for (size_t v = 0; v < first.vertices.size(); v += every) take(first.vertices[v]);
+  for (size_t t = 0; t < first.triangles.size(); t += every) {
+    const auto& n = first.triangles[t];
+    take((first.vertices[size_t(n[0])] + first.vertices[size_t(n[1])] +
+          first.vertices[size_t(n[2])]) /
+         3);
+  }
 }
 
-bool DistanceGuard::allows(const CollapsingMesh& mesh, int a, int b, const Vec3& at) {
+double DistanceGuard::deviation(const CollapsingMesh& mesh, int a, int b, const Vec3& at,
+                                double most) {
   struct NewTriangle {
     int number;
     Vec3 corner[3];
@@ -24,8 +40,12 @@ bool DistanceGuard::allows(const CollapsingMesh& mesh, int a, int b, const Vec3&
   std::vector<NewTriangle> fan;
   homes_.clear(), left_.clear();
   int near = -1;
-  const auto far = [&](const Vec3& p) { return std::abs(distance_(p, near)) > bounds_.at(p); };
-  if (far(at)) return false;
+  double largest = 0;
+  const auto look_at = [&](const Vec3& p) {
+    largest = std::max(largest, scale_.at(p) * std::abs(distance_(p, near)));
+    return largest <= most;
+  };
+  if (!look_at(at)) return largest;
   const auto affected = mesh.affected(a, b);
   for (const auto& [t, stays] : affected) {
     left_.push_back(t);
@@ -36,14 +56,20 @@ bool DistanceGuard::allows(const CollapsingMesh& mesh, int a, int b, const Vec3&
       made.corner[i] = v == a || v == b ? at : mesh.place(v);
     }
     const auto& c = made.corner;
-    if (far((c[0] + c[1] + c[2]) / 3)) return false;
-    for (int i = 0; i < 3; ++i)
-      if (far(0.5 * (c[i] + c[(i + 1) % 3]))) return false;
+    const Vec3 middle = (c[0] + c[1] + c[2]) / 3;
+    if (!look_at(middle)) return largest;
+    for (int i = 0; i < 3; ++i) {
+      if (!look_at(0.5 * (middle + c[i]))) return largest;
+      const int v = mesh.corners(t)[size_t(i)];
+      if (v != a && v != b) continue;  // the side that follows starts at `at`; the next fan has it
+      for (const double part : {0.25, 0.5, 0.75})
+        if (!look_at(at + part * (c[(i + 1) % 3] - at))) return largest;
+    }
     fan.push_back(made);
   }
   for (const auto& [t, stays] : affected)
     for (const int sample : samples_[size_t(t)]) {
-      const Vec3& p = first_.vertices[size_t(sample)];
+      const Vec3& p = sample_[size_t(sample)];
       double least = std::numeric_limits<double>::infinity();
       int home = -1;
       for (const NewTriangle& made : fan) {
@@ -52,11 +78,11 @@ bool DistanceGuard::allows(const CollapsingMesh& mesh, int a, int b, const Vec3&
         const double d = (p - w[0] * c[0] - w[1] * c[1] - w[2] * c[2]).squaredNorm();
         if (d < least) least = d, home = made.number;
       }
-      const double bound = bound_[size_t(sample)];
-      if (least > bound * bound) return false;
       homes_.push_back({sample, home});
+      largest = std::max(largest, sample_scale_[size_t(sample)] * std::sqrt(least));
+      if (largest > most) return largest;
     }
-  return true;
+  return largest;
 }
 
 void DistanceGuard::done() {

@@ -23,7 +23,7 @@ FlatOutline round_outline(const FlatOutline& outline, double step) {
     const double a = in.norm(), b = out.norm();
     const Eigen::Vector2d d0 = in / a, d1 = out / b;
     turned[i] = std::acos(std::clamp(d0.dot(d1), -1.0, 1.0));
-    const Eigen::Vector2d slope = (d0 * b + d1 * a) / (a + b);
+    const Eigen::Vector2d slope = (d0 * b + d1 * a).normalized();
     before[i] = turned[i] > corner ? d0 : slope;
     behind[i] = turned[i] > corner ? d1 : slope;
   }
@@ -34,11 +34,16 @@ FlatOutline round_outline(const FlatOutline& outline, double step) {
     const double length = chord.norm();
     const bool curved =
         std::max(turned[i] > corner ? 0 : turned[i], turned[k] > corner ? 0 : turned[k]) > straight;
+    // As long as an arc's slopes, so that a regular polygon's outline is its circle.
+    const double angle =
+        0.5 * ((turned[i] > corner ? 0 : turned[i]) + (turned[k] > corner ? 0 : turned[k]));
+    const double reach =
+        angle > straight ? length * 2 * std::tan(angle / 4) / std::sin(angle / 2) : length;
     const int pieces = curved ? std::clamp(int(std::ceil(length / step)), 4, most_between) : 1;
     for (int p = 0; p < pieces; ++p) {
       const double t = double(p) / pieces, s = 1 - t;
       result.push_back(outline[i] + t * t * (3 - 2 * t) * chord +
-                       length * t * s * (s * behind[i] - t * before[k]));
+                       reach * t * s * (s * behind[i] - t * before[k]));
     }
   }
   return result;

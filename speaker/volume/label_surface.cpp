@@ -1,8 +1,11 @@
 #include "speaker/volume/label_surface.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "speaker/isosurface/isosurface.hpp"
+#include "speaker/solid/surface_figures.hpp"
 
 namespace genio {
 namespace {
@@ -10,12 +13,15 @@ namespace {
 // exp(-n^2 / (2 0.7^2)), their sum made 1.
 constexpr float blur[3] = {0.56991f, 0.20542f, 0.00962f};
 
+constexpr double slope = 0.57;  // of a blurred step at its middle [1 / voxel]
+constexpr double lowest = 0.35;
+
 class BlurredLabel {
  public:
   explicit BlurredLabel(const LabelledBox& box)
       : box_(box), nu_(size_t(box.size[0])), nv_(size_t(box.size[1])), sum_(nu_ * nv_) {}
 
-  void layer(int k, std::span<float> out) {
+  void layer(int k, float level, std::span<float> out) {
     std::fill(sum_.begin(), sum_.end(), 0.f);
     for (int d = -2; d <= 2; ++d) {
       if (k + d < 0 || k + d >= box_.size[2]) continue;
@@ -24,7 +30,7 @@ class BlurredLabel {
     }
     along(sum_, 1, nu_, nv_, nu_, rows_);
     along(rows_, nu_, nv_, nu_, 1, sum_);
-    for (size_t i = 0; i < sum_.size(); ++i) out[i] = 0.5f - sum_[i];
+    for (size_t i = 0; i < sum_.size(); ++i) out[i] = level - sum_[i];
   }
 
  private:
@@ -57,8 +63,17 @@ TriangleSurface label_surface(const LabelledBox& box) {
     field.axis[d].resize(size_t(box.size[d]));
     std::iota(field.axis[d].begin(), field.axis[d].end(), 0.0);
   }
-  field.layer = [&](int k, std::span<float> values) { blurred.layer(k, values); };
-  return isosurface(field, [&](const Vec3& ijk) { return Vec3(box.to_metres * ijk); });
+  const auto at_level = [&](double level) {
+    field.layer = [&](int k, std::span<float> values) { blurred.layer(k, float(level), values); };
+    return isosurface(field, [&](const Vec3& ijk) { return Vec3(box.to_metres * ijk); });
+  };
+  const TriangleSurface surface = at_level(0.5);
+  if (surface.triangles.empty()) return surface;
+  // The blur shrinks what is round: the surface is moved until it holds what the voxels hold.
+  const SurfaceFigures f = surface_figures(surface);
+  const double voxel = std::abs(box.to_metres.linear().determinant());
+  const double way = (voxel * double(box.voxels) - f.volume) / f.area / std::cbrt(voxel);
+  return at_level(std::clamp(0.5 - slope * way, lowest, 0.5));
 }
 
 }  // namespace genio

@@ -26,7 +26,7 @@ const Jaw& jaw() {
   static const Jaw made = [] {
     Jaw j;
     j.spine.balls.push_back({test::jaw_spine, 8e-3});
-    j.fine = decimate(test::jaw_like(0.9e-3), {15000, {}, {}, {}}).surface;
+    j.fine = decimate(test::jaw_like(1.3e-3), {15000, {}, {}, {}}).surface;
     j.coarse = decimate(j.fine, {1450, {}, j.spine, {}});
     return j;
   }();
