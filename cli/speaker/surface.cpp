@@ -6,7 +6,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/command_line/options.hpp"
 #include "cli/support.hpp"
 #include "forward/base/elapsed.hpp"
 #include "speaker/decimation/decimate.hpp"

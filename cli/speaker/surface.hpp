@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/command_line/command.hpp"
+#include "cli/command_line/options.hpp"
 
 namespace genio::cli {
 
