@@ -15,7 +15,7 @@ namespace {
 constexpr double usual_kept_part = 0.3;  // the bound in the region over the bound elsewhere
 constexpr double rim_weight = 10;        // of planes that hold a rim, over those of triangles
 constexpr int most_tries = 6;            // with bounds that are drawn closer
-constexpr int many = 30000;              // triangles; above, deviations are not measured one by one
+constexpr int many = 16000;              // triangles; above, deviations are not measured one by one
 constexpr double small_change = 1e-5;    // [m], of what is done without measuring
 constexpr double grown = 1.1;            // of a deviation that is measured anew
 constexpr double none = std::numeric_limits<double>::infinity();

@@ -14,8 +14,8 @@
 namespace genio {
 namespace {
 
-constexpr double usual_nodes = 2e6, most_nodes = 2e8;
-constexpr double finest = 1e-4, coarsest = 1e-3;  // usual steps [m]
+constexpr double usual_nodes = 4e5, most_nodes = 2e8;
+constexpr double finest = 1e-4, coarsest = 0.8e-3;  // usual steps [m]
 
 /// A stack as values on layers of a grid that drifts along with the slices.
 class StackField {

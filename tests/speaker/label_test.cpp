@@ -222,7 +222,9 @@ TEST(LabelFile, FaultsAreNamedByField) {
   says("field dim: ", [](VolumeFile& f) { f.size = {4000, 4000, 4000}, f.value = nullptr; });
   says("field scl_slope", [](VolumeFile& f) { f.slope = NAN; });
   says("field srow_y: is not finite", [](VolumeFile& f) { f.rows[1][2] = INFINITY; });
-  says("in one plane", [](VolumeFile& f) { f.rows[2] = {1, 0, 0.001f, 0}; });
+  says("in one plane", [](VolumeFile& f) {
+    f.rows[0] = {1, 0, 1, 0}, f.rows[2] = {0, 0, 0.01f, 0};
+  });
   says("a voxel measures", [](VolumeFile& f) { f.unit = 1; });
   says("field xyzt_units", [](VolumeFile& f) { f.unit = 5; });
   says("field quatern_b", [](VolumeFile& f) { f.sform = 0, f.qform = 1, f.quaternion[0] = 2; });
