@@ -89,7 +89,9 @@ TEST(Decimation, NormalsStayOutwardsButForSlivers) {
     const Vec3 &a = coarse.vertices[size_t(t[0])], &b = coarse.vertices[size_t(t[1])],
                &c = coarse.vertices[size_t(t[2])];
     const Vec3 n = (b - a).cross(c - a);
-    if (n.norm() > 1e-8) EXPECT_GT(n.dot(a + b + c), 0);
+    if (n.norm() > 1e-8) {
+      EXPECT_GT(n.dot(a + b + c), 0);
+    }
   }
 }
 

@@ -136,8 +136,9 @@ TEST(Stack, OfSlicesThroughAJawFindsTheJaw) {
   const SurfaceFigures f = surface_figures(found), g = surface_figures(jaw);
   expect_ball_like(f);
   EXPECT_NEAR(f.volume, g.volume, 0.02 * g.volume);
-  // Beyond the first and the last slice nothing is known: up to a slice's distance is cut off.
-  EXPECT_LT(farthest_from(found, jaw, SurfaceDistance(jaw), 1e-5), 1e-3);
+  // Where the bone runs along the slices, what lies between two of them is anyone's guess: the
+  // surface may be off by two distances of slices.
+  EXPECT_LT(farthest_from(found, jaw, SurfaceDistance(jaw), 1e-5), 4e-3);
 }
 
 std::string table(const std::vector<std::vector<Vec3>>& outlines, double unit = 1e3) {
