@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "cli/command_line/command_line.hpp"
+#include "cli/indentation/indent.hpp"
 #include "cli/service/key.hpp"
 #include "cli/service/request.hpp"
 #include "cli/service/serve.hpp"
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
           add_discover},
          {"surface", "A bone's surface from slices, a label volume or a finer surface",
           add_surface},
+         {"indent", "Tissue constants from an indentation experiment", add_indent},
          {"serve", "Answer shape requests over LCM", add_serve},
          {"request", "Ask a server", add_request},
          {"key", "Make a key that a server and its clients share", add_key},

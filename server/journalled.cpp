@@ -43,7 +43,7 @@ struct Writer {
     return journal.answered(r.id, r.reply, r.status, now), "";
   }
   std::string operator()(const DeliveredRecord& r) const {
-    return journal.delivered(r.id, now), "";
+    return journal.delivered(r.id, now, r.client), "";
   }
 };
 

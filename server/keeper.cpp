@@ -21,11 +21,12 @@ void append_all(std::vector<T>& to, std::vector<T>&& from) {
 }
 
 size_t record_bytes(const Record& record) {
+  const size_t id = std::visit([](const auto& r) { return r.id.size(); }, record);
   if (const auto* accepted = std::get_if<AcceptedRecord>(&record))
-    return small_record + accepted->request.size();
+    return small_record + id + accepted->request.size();
   if (const auto* answered = std::get_if<AnsweredRecord>(&record))
-    return small_record + answered->reply.size();
-  return small_record;
+    return small_record + id + answered->reply.size();
+  return small_record + id;
 }
 
 size_t bytes_of(const std::vector<Record>& records) {
@@ -34,10 +35,14 @@ size_t bytes_of(const std::vector<Record>& records) {
   return bytes;
 }
 
-size_t bytes_of(const Outgoing& outgoing) {
-  size_t bytes = bytes_of(outgoing.records);
-  for (const OutgoingMessage& m : outgoing.messages) bytes += small_record + m.bytes.size();
+size_t bytes_of(const std::vector<OutgoingMessage>& messages) {
+  size_t bytes = 0;
+  for (const OutgoingMessage& m : messages) bytes += small_record + m.bytes.size();
   return bytes;
+}
+
+size_t bytes_of(const Outgoing& outgoing) {
+  return bytes_of(outgoing.records) + bytes_of(outgoing.messages);
 }
 
 /// Takes out the messages that wait for no record.
@@ -107,8 +112,8 @@ std::string Keeper::finish(Time until) {
   const auto all_done = [&] { return waiting_.empty() && !busy_ && unwritten_bytes_ == 0; };
   if (changed_.wait_until(lock, until, all_done)) return "";
   given_up_ = true;
-  return fmt::format("{:.1f} MB were given up at the end, as they could not be written in time{}",
-                     1e-6 * double(held_bytes()), failure_.empty() ? "" : ": " + failure_);
+  return fmt::format("{:.1f} kB were given up at the end, as they could not be written in time{}",
+                     1e-3 * double(held_bytes()), failure_.empty() ? "" : ": " + failure_);
 }
 
 void Keeper::work() {
@@ -157,14 +162,18 @@ void Keeper::write(Outgoing outgoing) {
   for (const Unkept& u : written.unkept) ids.insert(u.id);
   std::erase_if(outgoing.messages,
                 [&](const OutgoingMessage& m) { return ids.contains(m.acknowledges); });
-  const size_t unwritten = bytes_of(put_off_) + journal_->unwritten_bytes();
+  append_all(withheld_, std::move(outgoing.messages));
+  size_t unwritten = bytes_of(put_off_) + journal_->unwritten_bytes();
+  std::vector<OutgoingMessage> published;
+  if (unwritten == 0) published = std::exchange(withheld_, {});
+  else unwritten += bytes_of(withheld_);
   bool fails_now = false;
   {
     const std::lock_guard lock(mutex_);
     fails_now = unwritten > 0 && unwritten_bytes_ == 0;
     writing_bytes_ = 0, unwritten_bytes_ = unwritten;
     failure_ = unwritten > 0 ? written.failure : "";
-    append_all(done_.messages, std::move(outgoing.messages));
+    append_all(done_.messages, std::move(published));
     append_all(done_.unkept, std::move(written.unkept));
   }
   if (fails_now && failed_) failed_(written.failure);

@@ -64,8 +64,9 @@ class Keeper {
   const std::function<void(const std::string&)> failed_;
   const size_t most_bytes_;
   int done_signal_;
-  std::vector<Record> put_off_;  // of the thread
-  mutable std::mutex mutex_;     // guards what follows
+  std::vector<Record> put_off_;            // of the thread
+  std::vector<OutgoingMessage> withheld_;  // until what they tell of is written
+  mutable std::mutex mutex_;               // guards what follows
   std::condition_variable changed_;
   Outgoing waiting_;
   KeptBatch done_;

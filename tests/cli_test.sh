@@ -144,6 +144,23 @@ expect 2 'no column slice' "$genio" surface "$example" --out s.obj
 expect 0 'Benchmarks:' "$genio" bench --help
 expect 2 'not in' "$genio" bench nothing
 expect 2 'bench peer: needs --data' "$genio" bench peer
+# Tissue constants from an indentation: what is refused, and what few equilibria give.
+printf 'depth_mm,force_N\n1,0.01\n2,0.03\n' >few.csv
+expect 2 'expected at least 5' "$genio" indent --data few.csv --out few
+expect 2 'expected a file with force_N' "$genio" indent --out few
+expect 2 'not together' "$genio" indent --data few.csv --simulate --out few
+expect 2 'does nothing without' "$genio" indent --data few.csv --depth-mm 3 --out few
+expect 2 'expected --layers 2' "$genio" indent --data few.csv --fit-mucosa --out few
+printf 'depth_mm,force_N\n0.2,0.0016\n0.4,0.0032\n0.6,0.0049\n0.8,0.0067\n1,0.0085\n' >five.csv
+expect 0 '"young_modulus_kPa"' "$genio" indent --data five.csv --half-width-mm 20 --out five --json --into stiffer
+[ -s five/result.json ] && [ -s five/curve.csv ] || { echo "FAILED: five/"; failed=1; }
+expect 0 '"a10"' "$genio" info --model stiffer --json
+# The first example is what its page says.
+expect 0 '200 simulated forces' "$genio" indent --simulate --indenter sphere --radius-mm 7 --thickness-mm 15 \
+  --depth-mm 7 --rows 200 --layers 1 --a10-Pa 193.333 --a20-Pa 90.625 --seed 1 --out rear_muscle
+paste -d, rear_muscle/data.csv "$source/data/examples/indentation/rear_muscle.csv" | awk -F, '
+  NF == 6 { rows++; for (i = 1; i <= 3; i++) if (($i - $(i + 3)) ^ 2 > 2e-5 ^ 2) off = 1 }
+  END { exit off || rows != 201 }' || { echo "FAILED: rear_muscle.csv is another"; failed=1; }
 expect 2 "no data set's name contains" "$genio" bench discover --only no-such-case
 mkdir alone && cp "$genio" alone/ && expect 2 'genio-bench is missing' alone/genio bench forward
 exit $failed

@@ -22,6 +22,7 @@
 #include "bench/figures/inverse/peer.hpp"
 #include "bench/figures/inverse/reach.hpp"
 #include "bench/figures/service/service.hpp"
+#include "bench/figures/speaker/indent.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio::bench {
@@ -39,11 +40,11 @@ bool given(const BenchOptions& o, const std::string& name) {
 
 const std::vector<Benchmark>& benchmarks() {
   static const std::vector<Benchmark> all = {
-      forward_bench(),   dynamic_bench(),     robustness_bench(), verification_bench(),
-      inverse_bench(),   calibration_bench(), reach_bench(),      peer_bench(),
-      gesture_bench(),   discover_bench(),    service_bench(),    recordings_bench(),
-      corpus_bench(),    ultrasound_bench(),  grenoble_bench(),   grenoble_gravity_bench(),
-      seed_suite_bench()};
+      forward_bench(),    dynamic_bench(),     robustness_bench(), verification_bench(),
+      inverse_bench(),    calibration_bench(), reach_bench(),      peer_bench(),
+      gesture_bench(),    discover_bench(),    service_bench(),    recordings_bench(),
+      corpus_bench(),     ultrasound_bench(),  grenoble_bench(),   grenoble_gravity_bench(),
+      seed_suite_bench(), indent_bench()};
   return all;
 }
 

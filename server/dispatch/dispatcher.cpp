@@ -14,6 +14,7 @@ namespace {
 
 constexpr int64_t before_deadline = 2000;  // that a reply is made up [us]
 constexpr int most_tries = 2;
+constexpr size_t few_waiting = 4;   // requests of a client
 constexpr double seconds_held = 5;  // after which to ask again; as long as a program may write
 constexpr const char* id_is_taken = "the id was used for another request; choose an id that is new";
 constexpr double newest_counts = 0.2;  // of the usual time of a request
@@ -113,13 +114,20 @@ bool Dispatcher::answered_before(const shape_request_t& request, const std::stri
   return true;
 }
 
-std::string Dispatcher::why_full(size_t bytes) const {
+/// The last fifth is for those of whom few wait, so that nobody fills the queue alone.
+bool Dispatcher::has_place(const std::string& client, size_t bytes) const {
+  const bool few = line_.size_of(client) < few_waiting;
+  const auto places = size_t(limits_.waiting), room = limits_.waiting_bytes;
+  return line_.size() < places + (few ? places / 4 : 0) &&
+         line_.bytes() + bytes <= room + (few ? room / 4 : 0);
+}
+
+std::string Dispatcher::why_full(const std::string& client, size_t bytes) const {
   if (closed_) return "the server stops; ask again";
   if (held_)
     return fmt::format("the journal is behind with its writing; ask again in {:.0f} s",
                        seconds_held);
-  if (int(line_.size()) < limits_.waiting && line_.bytes() + bytes <= limits_.waiting_bytes)
-    return "";
+  if (has_place(client, bytes)) return "";
   return fmt::format("the queue is full ({} requests wait); ask again in {:.0f} s", line_.size(),
                      seconds_until_free());
 }
@@ -132,7 +140,7 @@ void Dispatcher::accept(shape_request_t request, std::vector<uint8_t> bytes, int
   if (running_.contains(request.id))
     return refuse(request.client, request.id,
                   "a computation of this id was given up and has not ended yet; ask again", 1);
-  if (const std::string why = why_full(bytes.size()); !why.empty())
+  if (const std::string why = why_full(request.client, bytes.size()); !why.empty())
     return refuse(request.client, request.id, why, held_ ? seconds_held : seconds_until_free());
   AcceptedRecord record{request.id, request.client, digest,         std::move(bytes), now,
                         0,          request.model,  request.stream, request.priority};
@@ -158,7 +166,7 @@ Dispatcher::Entry& Dispatcher::enqueue(shape_request_t request, const AcceptedRe
 void Dispatcher::wait_in_line(Entry& entry) {
   entry.state = State::waiting;
   line_.add({entry.request.id, entry.request.priority, stream_of(entry, models_[entry.model]),
-             entry.bytes, entry.number});
+             entry.bytes, entry.clients.front(), entry.place});
 }
 
 void Dispatcher::resume(const AcceptedRecord& record, int tries, int64_t now) {
@@ -199,10 +207,13 @@ void Dispatcher::drop(const std::string& id, const std::string& reason) {
 void Dispatcher::receive_ack(const void* data, size_t size) {
   std::string why;
   const auto ack = decode_checked<ack_t>(data, size, why);
-  if (!ack) return drop_unreadable("GENIO_ACK", size, why);
+  if (ack && (ack->id.size() > longest_id || !usable_client(ack->client)))
+    why = "the id is too long, or the client's name cannot be used";
+  if (!why.empty()) return drop_unreadable("GENIO_ACK", size, why);
   const auto it = entries_.find(ack->id);
   if (it != entries_.end() && !it->second.asked_by(ack->client)) return;
-  outbox_.keep(DeliveredRecord{ack->id});
+  // Of an earlier process's request the journal knows who asked.
+  outbox_.keep(DeliveredRecord{ack->id, it == entries_.end() ? ack->client : ""});
 }
 
 void Dispatcher::answer(Entry& entry, command_reply_t reply, int64_t now) {
@@ -269,7 +280,7 @@ std::optional<Assignment> Dispatcher::next(int64_t now) {
   const auto chosen = line_.next(busy_);
   if (!chosen) return std::nullopt;
   Entry& entry = entries_.at(chosen->id);
-  entry.state = State::running, entry.started = now, entry.number = chosen->number;
+  entry.state = State::running, entry.started = now, entry.place = chosen->place;
   running_[chosen->id] = {chosen->stream};
   if (!chosen->stream.empty()) busy_.insert(chosen->stream);
   at_once_ = std::max(at_once_, running_.size());

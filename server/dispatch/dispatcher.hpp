@@ -111,8 +111,9 @@ class Dispatcher {
   void ask_again(const shape_request_t& request, const std::string& digest, Entry& entry);
   /// The reply that the journal has of the id; true where nothing is left to do.
   bool answered_before(const shape_request_t& request, const std::string& digest);
+  bool has_place(const std::string& client, size_t bytes) const;
   /// Empty where the request may wait.
-  std::string why_full(size_t bytes) const;
+  std::string why_full(const std::string& client, size_t bytes) const;
   void answer(Entry& entry, command_reply_t reply, int64_t now);
   void forget(const std::string& id);
   void give_up(const std::string& id);

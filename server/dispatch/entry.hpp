@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "server/dispatch/waiting_line.hpp"
 #include "server/wire/wire.hpp"
 
 namespace genio {
@@ -20,7 +21,7 @@ struct RequestEntry {
   std::string digest;
   std::vector<std::string> clients;  ///< that asked; the first may withdraw it
   size_t model = 0, bytes = 0;
-  int64_t number = -1;  ///< its place in the line
+  WaitingRequest::Place place;  ///< in the line
   int64_t accepted = 0, deadline = 0, started = 0;
   int tries = 0;  ///< that took a worker with them
   bool resumed = false, cancelled = false;

@@ -24,9 +24,9 @@ struct AnsweredRecord {
   std::string id, status;
   std::vector<uint8_t> reply;
 };
-/// A client has the reply.
+/// A client has the reply. `client`: counts only where that one asked first; empty: whoever it is.
 struct DeliveredRecord {
-  std::string id;
+  std::string id, client = {};
 };
 using Record = std::variant<AcceptedRecord, LostRecord, AnsweredRecord, DeliveredRecord>;
 

@@ -48,7 +48,6 @@ struct HubConnection {
   bool to_send = false;             ///< has got a message in this turn
   bool welcomed = false;            ///< the hub's own greeting was sent
   bool reading = true;              ///< false when the hub ends and no more is expected
-  bool held_back = false;           ///< not read from while much of it waits for the service
   HubTime heard;                    ///< when bytes came last
   bool ended = false;               ///< to be removed at the end of the turn
 };

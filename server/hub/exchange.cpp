@@ -98,7 +98,7 @@ std::string_view HubExchange::understand(HubConnection& c, std::string_view byte
     std::optional<HubEvent> event = c.parser.next(bytes);
     if (!event) break;
     handle(c, std::move(*event), now);
-    if (HubClock::now() >= end || table_.holds_back(c, c.held_back)) break;
+    if (HubClock::now() >= end || table_.holds_back(c, now)) break;
   }
   if (!c.ended && c.parser.fault() != HubParser::Fault::none)
     table_.drop(c, reason_for(c.parser.fault()));
@@ -123,24 +123,24 @@ void HubExchange::handle(HubConnection& c, HubEvent event, HubTime now) {
     case HubEvent::Kind::publish:
       c.standing.took_part = true;
       ++table_.counters().messages_in;
-      relay(c.id, std::move(event), now);
+      relay(c, std::move(event), now);
       return;
   }
 }
 
-void HubExchange::relay(uint64_t sender, HubEvent event, HubTime now) {
+void HubExchange::relay(const HubConnection& from, HubEvent event, HubTime now) {
   const std::string_view channel = event.name();  // its bytes stay where they are
   const auto message = std::make_shared<const HubMessage>(std::move(event.frame), table_.held());
   for (auto& [id, to] : table_.all())
-    if (!to.ended && to.subscriptions.want(channel)) hand_over(sender, to, message, now);
+    if (!to.ended && to.subscriptions.want(channel)) hand_over(from, to, message, now);
   table_.keep_queue_small();
 }
 
-void HubExchange::hand_over(uint64_t sender, HubConnection& to,
+void HubExchange::hand_over(const HubConnection& from, HubConnection& to,
                             const std::shared_ptr<const HubMessage>& message, HubTime now) {
   try {
     if (to.backlog.empty()) to.standing.drained = now;
-    to.backlog.push(message, sender);
+    to.backlog.push(message, from.id, is_newcomer(from.standing, now));
     if (!std::exchange(to.to_send, true)) to_send_to_.push_back(&to);
   } catch (const std::bad_alloc&) {
     return table_.drop(to, HubDrop::out_of_memory);

@@ -28,8 +28,8 @@ class HubExchange {
   std::string_view understand(HubConnection& c, std::string_view bytes, HubTime now,
                               HubClock::duration longest);
   void handle(HubConnection& c, HubEvent event, HubTime now);
-  void relay(uint64_t sender, HubEvent event, HubTime now);
-  void hand_over(uint64_t sender, HubConnection& to,
+  void relay(const HubConnection& from, HubEvent event, HubTime now);
+  void hand_over(const HubConnection& from, HubConnection& to,
                  const std::shared_ptr<const HubMessage>& message, HubTime now);
   void send(HubConnection& c, HubTime now, size_t most);
   void pass_on(HubTime now, const HubTurn& turn);

@@ -16,8 +16,8 @@ struct HubLimits {
   size_t program_cost = 4096;
   size_t backlog_bytes = 8 << 20;   ///< a connection: what waits until it reads
   size_t backlog_messages = 8192;   ///< likewise; many small ones take time to forget
-  size_t queued_bytes = 64 << 20;   ///< all connections; a message that many wait for counts once
-  size_t partial_bytes = 64 << 20;  ///< all connections: messages of which a part has come
+  size_t queued_bytes = 32 << 20;   ///< all connections; a message that many wait for counts once
+  size_t partial_bytes = 32 << 20;  ///< all connections: messages of which a part has come
   size_t read_bytes = 128 << 10;    ///< from one connection before others have their turn
   size_t sent_bytes = 256 << 10;    ///< likewise to one connection
 

@@ -45,6 +45,14 @@ Poller::Order order_of(const HubConnection& c) {
   return c.standing.uses_much ? Poller::Order::with_time : Poller::Order::always;
 }
 
+uint32_t wanted_events(const HubConnection& c) {
+  const uint32_t out = c.backlog.empty() ? 0u : uint32_t(EPOLLOUT);
+  if (!c.reading) return out;
+  if (!c.standing.held_back) return EPOLLIN | EPOLLRDHUP | out;
+  // That the other side of one who is not read from is gone would be reported without end.
+  return out != 0 ? out : uint32_t(EPOLLRDHUP | EPOLLET);
+}
+
 void earliest(std::optional<HubTime>& due, const std::optional<HubTime>& other) {
   if (other && (!due || *other < *due)) due = other;
 }
@@ -217,10 +225,7 @@ void HubLoop::watch(HubConnection& c, HubTime now) {
     forget(c);
     c.standing.uses_much = much;
   }
-  const uint32_t events = (c.reading && !c.held_back ? uint32_t(EPOLLIN | EPOLLRDHUP) : 0u) |
-                          (c.backlog.empty() ? 0u : uint32_t(EPOLLOUT));
-  // The system would report without end that the other side of one who is held back is gone.
-  if (c.held_back && events == 0) return forget(c);
+  const uint32_t events = wanted_events(c);
   if (c.watched == events) return;
   if (poller_.watch(c.socket.get(), c.id, events, c.watched.has_value(), order_of(c)))
     c.watched = events;
@@ -229,8 +234,10 @@ void HubLoop::watch(HubConnection& c, HubTime now) {
 
 /// It is not the fault of who is held back that its message does not go on.
 void HubLoop::hold_back(HubConnection& c, HubTime now) {
-  c.held_back = !until_ && table_.holds_back(c, c.held_back);
-  if (c.held_back) c.standing.partial_grew = now;
+  c.standing.held_back = !until_ && table_.holds_back(c, now);
+  if (!c.standing.held_back) return;
+  c.standing.partial_grew = now;
+  if (is_newcomer(c.standing, now)) earliest(next_due_, newcomer_until(c.standing));
 }
 
 void HubLoop::forget(HubConnection& c) {

@@ -3,7 +3,7 @@
 namespace genio {
 namespace {
 
-constexpr std::chrono::milliseconds time_to_greet{100};
+constexpr std::chrono::milliseconds time_to_greet{100}, newcomers_time{1000};
 constexpr double byte_s = 1e-6;  // so that the larger goes first among messages that just began
 
 double seconds(HubClock::duration d) { return std::chrono::duration<double>(d).count(); }
@@ -16,10 +16,12 @@ int rank(const HubStanding& s, HubTime now) {
   if (s.favoured) return 4;
   if (s.left || (!s.greeted && now - s.accepted > time_to_greet)) return 0;
   if (!s.took_part) return 1;
-  return s.uses_much ? 2 : 3;
+  return s.uses_much || s.held_back ? 2 : 3;
 }
 
 }  // namespace
+
+HubTime newcomer_until(const HubStanding& s) { return s.accepted + newcomers_time; }
 
 std::optional<HubDue> hub_due(const HubStanding& s, const HubLimits& limits) {
   std::optional<HubDue> due;

@@ -17,6 +17,7 @@ struct HubStanding {
   bool favoured = false;   ///< the service's own
   bool left = false;       ///< will send nothing more than what has come
   bool uses_much = false;  ///< and waits while the hub rests, see HubUsage
+  bool held_back = false;  ///< not read from while much of it waits for the service
   HubTime accepted{};
   HubTime active{};          ///< last whole message from it, or byte taken by it
   size_t partial_bytes = 0;  ///< memory of what is not understood yet
@@ -25,6 +26,12 @@ struct HubStanding {
   size_t backlog_bytes = 0;
   HubTime drained{};  ///< since when what waits has not become less
 };
+
+/// Until when a connection is a newcomer: a second.
+HubTime newcomer_until(const HubStanding& standing);
+inline bool is_newcomer(const HubStanding& standing, HubTime now) {
+  return now < newcomer_until(standing);
+}
 
 struct HubDue {
   HubTime at;
@@ -36,8 +43,9 @@ struct HubDue {
 std::optional<HubDue> hub_due(const HubStanding& standing, const HubLimits& limits);
 
 /// True where `a` is to go before `b` when there are too many: first who has left or not greeted in
-/// 100 ms, then who has neither subscribed nor published, then who uses much, then who has been
-/// idle longest, and the service last. The 100 ms let a newcomer greet while others keep on coming.
+/// 100 ms, then who has neither subscribed nor published, then who uses much or is held back, then
+/// who has been idle longest, and the service last. The 100 ms let a newcomer greet while others
+/// keep on coming.
 bool less_useful(const HubStanding& a, const HubStanding& b, HubTime now);
 
 /// How much of the room for unfinished messages a connection has taken for how long [byte s]: the

@@ -21,7 +21,7 @@ size_t affordable_connections(size_t wanted) {
   return std::max<size_t>(wanted, 1);
 }
 
-constexpr int most_unsent = 16 << 10;  // bytes
+constexpr int most_unsent = 4 << 10;  // bytes
 // What waits for the service of one sender before more of it is understood, and of all senders.
 constexpr size_t full_messages = 64, full_bytes = 64 << 10, crowded_bytes = 16 << 20;
 
@@ -160,14 +160,17 @@ void HubTable::favour(HubConnection& c) {
   setsockopt(c.socket.get(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent, sizeof most_unsent);
 }
 
-bool HubTable::holds_back(const HubConnection& c, bool before) {
+bool HubTable::holds_back(const HubConnection& c, HubTime now) {
   const HubConnection* const service = favoured_ ? find(*favoured_) : nullptr;
   if (!service || service->ended || c.standing.favoured) return false;
   const HubFairQueue::Share share = service->backlog.share(c.id);
   if (service->backlog.bytes() > crowded_bytes)
     return share.messages > 0 || c.standing.partial_bytes > full_bytes;
-  const size_t part = before ? 2 : 1;
-  return share.messages > full_messages / part || share.bytes > full_bytes / part;
+  const size_t part = c.standing.held_back ? 2 : 1;
+  const auto is_full = [part](const HubFairQueue::Share& s) {
+    return s.messages > full_messages / part || s.bytes > full_bytes / part;
+  };
+  return is_full(share) || (is_newcomer(c.standing, now) && is_full(service->backlog.newcomers()));
 }
 
 size_t HubTable::pattern_cost() const {

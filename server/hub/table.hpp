@@ -41,8 +41,8 @@ class HubTable {
   /// who sends it more than it reads is held back.
   void favour(HubConnection& connection);
   /// True where so much of what a connection sent waits for the service that no more of it is to be
-  /// understood now. `before`: what was said before, so that nobody goes to and fro.
-  bool holds_back(const HubConnection& connection, bool before);
+  /// understood now. Who was held back waits until half of that is left.
+  bool holds_back(const HubConnection& connection, HubTime now);
   /// Drops those with the costliest patterns while these cost too much in all.
   void keep_patterns_cheap();
 

@@ -43,7 +43,7 @@ void HubTurns::collect(HubTime now) {
   const bool resting = rests();
   for (auto& [id, c] : table_.all()) {
     if (c.ended || (resting && c.standing.uses_much)) continue;
-    queue(c, c.in, (c.in.ready || !c.unread.empty()) && !c.held_back, now);
+    queue(c, c.in, (c.in.ready || !c.unread.empty()) && !c.standing.held_back, now);
     queue(c, c.out, c.out.ready && !c.backlog.empty(), now);
   }
 }
@@ -75,7 +75,8 @@ bool HubTurns::more_to_understand() const {
   const auto& all = table_.all();
   return std::any_of(all.begin(), all.end(), [resting = rests()](const auto& entry) {
     const HubConnection& c = entry.second;
-    return !c.ended && !c.unread.empty() && !c.held_back && !(resting && c.standing.uses_much);
+    return !c.ended && !c.unread.empty() && !c.standing.held_back &&
+           !(resting && c.standing.uses_much);
   });
 }
 

@@ -225,10 +225,11 @@ bool Journal::answered(const std::string& id, std::vector<uint8_t> reply, const 
                  small_change + kept->size()});
 }
 
-bool Journal::delivered(const std::string& id, int64_t at_us) {
+bool Journal::delivered(const std::string& id, int64_t at_us, const std::string& client) {
   return state_->make({[=](JournalTable& table) {
                          auto entry = table.find(id);
                          if (!entry || entry->state != JournalState::answered) return false;
+                         if (!client.empty() && client != entry->client) return false;
                          entry->state = JournalState::delivered, entry->delivered_us = at_us;
                          table.update(*entry);
                          return true;

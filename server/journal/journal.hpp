@@ -72,8 +72,9 @@ class Journal {
   /// waits for an answer: a second reply does not replace the first.
   bool answered(const std::string& id, std::vector<uint8_t> reply, const std::string& status,
                 int64_t at_us);
-  /// Marks that the client acknowledged the reply. False where no such reply waits for it.
-  bool delivered(const std::string& id, int64_t at_us);
+  /// Marks that a client acknowledged the reply. False where no such reply waits for it, or where
+  /// another `client` asked (empty: whoever did).
+  bool delivered(const std::string& id, int64_t at_us, const std::string& client = {});
   /// Writes all changes since the last call as one transaction, which costs one flush of the disk,
   /// or nothing without changes.
   void sync();

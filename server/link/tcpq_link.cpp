@@ -24,7 +24,7 @@ constexpr milliseconds longest_attempt{1000};  // from its start to the hub's wh
 constexpr milliseconds longest_stall{5000};    // of a hub that takes nothing of what is sent
 constexpr int longest_pause_ms = 100;          // between two tries where nobody listens
 constexpr size_t read_at_once = 32 << 10;      // bytes
-constexpr int receive_buffer = 32 << 10;       // bytes of the system's
+constexpr int receive_window = 16 << 10, receive_buffer = 256 << 10;  // bytes
 
 int ms_of(std::chrono::steady_clock::duration time) {
   return int(std::max<int64_t>(0, std::chrono::ceil<milliseconds>(time).count()));
@@ -83,15 +83,19 @@ void TcpqLink::close() {
 
 void TcpqLink::begin() {
   const TcpAddress to = tcp_address(url_).value();
-  const auto host = numeric_host(to.host);
+  // A resolver may take long, so that it is asked until it knows the host, and not again.
+  if (!host_) host_ = numeric_host(to.host);
   sockaddr_in address{};
   address.sin_family = AF_INET;  // as LCM
   address.sin_port = htons(to.port);
-  if (!host || inet_pton(AF_INET, host->c_str(), &address.sin_addr) != 1) return;
+  if (!host_ || inet_pton(AF_INET, host_->c_str(), &address.sin_addr) != 1) return;
   socket_.reset(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!socket_) return;
-  // What waits in it can no longer give way to what others send.
+  // What is on its way can no longer give way to what others send. A small buffer alone would make
+  // the system drop small messages, which take much beside their bytes; a fixed one keeps the
+  // window as it is.
   setsockopt(socket_.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+  setsockopt(socket_.get(), IPPROTO_TCP, TCP_WINDOW_CLAMP, &receive_window, sizeof receive_window);
   began_ = Clock::now();
   stage_ = Stage::connecting;
   if (::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)

@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <list>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -51,6 +52,7 @@ class TcpqLink final : public LinkTransport {
   bool send(const std::vector<char>& bytes);
 
   const std::string url_;
+  std::optional<std::string> host_;  // as numbers
   Descriptor socket_;
   Stage stage_ = Stage::closed;
   Clock::time_point began_{};  // to connect

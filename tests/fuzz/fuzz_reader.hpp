@@ -24,6 +24,7 @@ std::vector<FuzzReader> hub_readers();
 std::vector<FuzzReader> model_readers();
 std::vector<FuzzReader> run_readers();
 std::vector<FuzzReader> surface_input_readers();
+std::vector<FuzzReader> speaker_readers();
 std::vector<FuzzReader> wire_readers();
 
 /// All of them.

@@ -83,14 +83,17 @@ TEST_F(KeeperTest, ALockOfAnotherProgramStallsABatchOnceAndNotEachRecord) {
     batch.records.push_back(one.records.front());
     batch.messages.push_back(one.messages.front());
   }
+  batch.messages.push_back(reply_message(Passage::in_order));
   keeper->hand_over(std::move(batch));
   const KeptBatch kept = collect_all(requests);
   EXPECT_LT(steady_clock::now() - begin, seconds(30));  // five a stall
   ASSERT_EQ(kept.unkept.size(), size_t(requests));
   EXPECT_NE(kept.unkept.front().reason.find("in use by another program"), std::string::npos);
+  // Nobody is told what does not stand in the journal.
   EXPECT_TRUE(kept.messages.empty());
   // The reply waited, and is written without anything else to write.
   other.reset();
+  EXPECT_EQ(collect_all(1).messages.size(), 1u);
   EXPECT_EQ(keeper->finish(steady_clock::now() + seconds(60)), "");
   ASSERT_TRUE(keeper->find(kept_id(0)));
   EXPECT_EQ(keeper->find(kept_id(0))->reply, std::vector<uint8_t>{7});

@@ -88,6 +88,8 @@ std::vector<Attack> service_attacks(const shape_request_t& question) {
        {&many_points.x_mm, &many_points.y_mm, &many_points.z_mm, &many_points.sigma_mm})
     values->assign(count, 1);
   many_points.kind.assign(count, "tip");
+  shape_request_t long_request = named(question, 4);
+  long_request.prior = std::string(42000, '#');
   const std::string same = encoded(named(question, 2));
   return {
       flood("long kinds", message("GENIO_REQUEST", encoded(long_kind)), 1),
@@ -97,6 +99,11 @@ std::vector<Attack> service_attacks(const shape_request_t& question) {
        .reads = true,
        .bytes = [question](
                     uint64_t n) { return message("GENIO_REQUEST", encoded(named(question, n))); }},
+      {.name = "reconnects with requests",
+       .connections = 40,
+       .leaves = true,
+       .bytes = [refused = encoded(long_request)](
+                    uint64_t) { return message("GENIO_REQUEST", refused); }},
       {.name = "one id, other contents",
        .reads = true,
        .bytes =

@@ -96,6 +96,13 @@ void ServerProcess::kill() {
   server_ = {};
 }
 
+double ServerProcess::peak_mb() const {
+  std::ifstream in(fmt::format("/proc/{}/status", server_.pid));
+  for (std::string word; in >> word;)
+    if (double kB = 0; word == "VmHWM:" && in >> kB) return 1e-3 * 1.024 * kB;
+  throw std::runtime_error("the memory of a server cannot be read");
+}
+
 std::vector<pid_t> ServerProcess::workers() const {
   std::vector<pid_t> all;
   for (pid_t nursery : children_of(server_.pid))

@@ -32,6 +32,8 @@ class ServerProcess {
   void kill();
   /// The worker processes of the server that is there.
   std::vector<pid_t> workers() const;
+  /// The most memory that its first process, in which the hub is, has had [MB].
+  double peak_mb() const;
 
  private:
   void wait_for(NurseryEvent::Kind kind);

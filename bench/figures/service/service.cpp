@@ -38,6 +38,7 @@ Json run_service(const BenchOptions& o, const Progress& progress) {
   const char* provider = std::getenv("LCM_DEFAULT_URL");
   // All of them before there is a thread.
   ServerProcess one(models, {.workers = 1}), two(models, {.workers = 2}),
+      attacked(models, {.journal = folder.path / "attacked.db", .workers = 1}),
       killed(models, {.url = provider ? provider : "",
                       .journal = folder.path / "journal.db",
                       .computed = computed,
@@ -64,8 +65,8 @@ Json run_service(const BenchOptions& o, const Progress& progress) {
     progress("deadlines are measured");
   }
   if (asked_for("attacks")) {
-    if (!asked_for("overhead") && !asked_for("throughput")) one.start();
-    figures.update(under_attack(one.url(), questions.front(), attacked_s, progress));
+    attacked.start();
+    figures.update(under_attack(attacked, questions.front(), attacked_s, progress));
   }
   if (asked_for("kills")) {
     killed.start();

@@ -10,24 +10,6 @@ Elasticity::Elasticity(const HexMesh& mesh, const TissueConstants& c)
              {.name = "a20", .unit = "Pa", .value = c.a20, .lower = 0, .upper = 1e6},
              {.name = "kappa", .unit = "Pa", .value = c.kappa, .lower = 1e3, .upper = 1e10}}} {}
 
-double Elasticity::step_limit(const Positions& x, const Positions& along, EffectParameters) const {
-  double t = 1.0;
-  Positions reached = x + along;
-  BatchShape before, after;
-  for (size_t b = 0; b < batches_.size(); ++b) {
-    const ElementBatch& batch = batches_[b];
-    if (!deform(batch, x, before)) continue;
-    const auto keeps_volume = [&] {
-      if (!deform(batch, reached, after)) return false;
-      for (int q = 0; q < 8; ++q)
-        if (lanes::any_not_positive(after.j[q] - 0.25 * before.j[q], batch.count)) return false;
-      return true;
-    };
-    while (t > 1e-3 && !keeps_volume()) t *= 0.7, reached = x + t * along;
-  }
-  return t;
-}
-
 Effect elastic_tissue(const HexMesh& mesh, const TissueConstants& constants, bool viscous) {
   const auto elasticity = std::make_shared<Elasticity>(mesh, constants);
   if (!viscous) return {.potential = elasticity};

@@ -19,8 +19,9 @@ class Elasticity final : public TissuePotential {
 
   std::string_view name() const override { return "elasticity"; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
-  /// No Gauss point loses more than three quarters of its volume in one step.
-  double step_limit(const Positions& x, const Positions& along, EffectParameters) const override;
+  double step_limit(const Positions& x, const Positions& along, EffectParameters) const override {
+    return volume_step_limit(x, along);
+  }
 
   const std::vector<ElementBatch>& batches() const { return batches_; }
   /// What every element is made of.

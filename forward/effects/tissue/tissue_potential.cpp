@@ -55,6 +55,24 @@ void TissuePotential::add_bulk_modulus(EffectParameters p, Vector& kappa) const 
   }
 }
 
+double TissuePotential::volume_step_limit(const Positions& x, const Positions& along) const {
+  double t = 1.0;
+  Positions reached = x + along;
+  BatchShape before, after;
+  for (size_t b = 0; b < batches_.size(); ++b) {
+    const ElementBatch& batch = batches_[b];
+    if (!deform(batch, x, before)) continue;
+    const auto keeps_volume = [&] {
+      if (!deform(batch, reached, after)) return false;
+      for (int q = 0; q < 8; ++q)
+        if (lanes::any_not_positive(after.j[q] - 0.25 * before.j[q], batch.count)) return false;
+      return true;
+    };
+    while (t > 1e-3 && !keeps_volume()) t *= 0.7, reached = x + t * along;
+  }
+  return t;
+}
+
 void TissuePotential::add_stiffness_product(const Positions& x, const Vector& v, EffectParameters p,
                                             Forces& f) const {
   BatchShape s;

@@ -32,6 +32,9 @@ class TissuePotential : public Potential, public NewtonAid {
  protected:
   explicit TissuePotential(const HexMesh& mesh) : batches_(element_batches(mesh)) {}
 
+  /// The part of a step over which no Gauss point loses more than three quarters of its volume.
+  double volume_step_limit(const Positions& x, const Positions& along) const;
+
   /// The constants of batch `b`.
   virtual BatchTissue tissue(size_t b, EffectParameters p) const = 0;
   /// Their derivative with respect to parameter k.

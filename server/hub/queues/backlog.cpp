@@ -16,13 +16,13 @@ namespace {
 constexpr size_t entry_overhead = 96;
 constexpr size_t max_pieces = 64;  // messages of one call of sendmsg
 // Of what is sent next; who comes later goes after it.
-constexpr size_t settled_messages = 8;
+constexpr size_t settled_messages = 8, settled_bytes = 4 << 10;
 
 }  // namespace
 
-void HubBacklog::push(std::shared_ptr<const HubMessage> message, uint64_t sender) {
+void HubBacklog::push(std::shared_ptr<const HubMessage> message, uint64_t sender, bool newcomer) {
   const size_t size = message->bytes().size();
-  if (fair_) shared_.push(sender, std::move(message));
+  if (fair_) shared_.push(sender, std::move(message), newcomer);
   else queue_.push_back(std::move(message));
   bytes_ += size + entry_overhead;
   held_ += entry_overhead;
@@ -45,13 +45,16 @@ std::optional<uint64_t> HubBacklog::forget_heaviest() {
 }
 
 void HubBacklog::take_from_shares() {
-  while (!shared_.empty() && queue_.size() < settled_messages) {
+  size_t settled = 0;
+  for (const auto& message : queue_) settled += message->bytes().size();
+  while (!shared_.empty() && queue_.size() < settled_messages && settled < settled_bytes) {
     try {
       queue_.emplace_back();
     } catch (const std::bad_alloc&) {
       return;  // they wait until there is memory
     }
     queue_.back() = shared_.pop();
+    settled += queue_.back()->bytes().size();
   }
 }
 

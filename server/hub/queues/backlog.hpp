@@ -20,7 +20,7 @@ class HubBacklog {
   HubBacklog& operator=(const HubBacklog&) = delete;
 
   /// Throws std::bad_alloc, and nothing has changed then.
-  void push(std::shared_ptr<const HubMessage> message, uint64_t sender = 0);
+  void push(std::shared_ptr<const HubMessage> message, uint64_t sender = 0, bool newcomer = false);
   /// From now on senders have fair shares; what waits goes before. There is no way back.
   void share_fairly() { fair_ = true; }
   void clear();
@@ -28,6 +28,7 @@ class HubBacklog {
   size_t messages() const { return queue_.size() + shared_.messages(); }
   /// What waits of one sender for its share.
   HubFairQueue::Share share(uint64_t sender) const { return shared_.share(sender); }
+  HubFairQueue::Share newcomers() const { return shared_.newcomers(); }
   /// Forgets all of the sender with the largest share; nothing where there is none.
   std::optional<uint64_t> forget_heaviest();
   /// What is still to be sent, and a little for each message [bytes].

@@ -8,20 +8,25 @@ namespace {
 
 constexpr uint64_t cost_of_any = 4096;  // bytes that take as long as what every message takes
 
+void add(HubFairQueue::Share& share, size_t bytes) { ++share.messages, share.bytes += bytes; }
+
+void remove(HubFairQueue::Share& share, size_t bytes) { --share.messages, share.bytes -= bytes; }
+
 /// Memory that it takes, or nearly so.
 size_t weight(const HubFairQueue::Share& share) { return share.bytes + 256 * share.messages; }
 
 }  // namespace
 
-void HubFairQueue::push(uint64_t sender, Message message) {
+void HubFairQueue::push(uint64_t sender, Message message, bool newcomer) {
   if (senders_.size() >= many_senders_) forget_idle_senders();
   Sender& s = senders_[sender];
   const size_t size = message->bytes().size();
-  const uint64_t start = std::max(now_, s.next_start);
-  waiting_.emplace(start, Waiting{sender, std::move(message)});
+  const uint64_t start = std::max({now_, s.next_start, newcomer ? newcomers_start_ : 0});
+  waiting_.emplace(start, Waiting{sender, std::move(message), newcomer});
   s.next_start = start + size + cost_of_any;
   active_ += s.share.messages == 0;
-  ++s.share.messages, s.share.bytes += size;
+  add(s.share, size);
+  if (newcomer) newcomers_start_ = s.next_start, add(newcomers_, size);
 }
 
 HubFairQueue::Message HubFairQueue::pop() {
@@ -31,7 +36,8 @@ HubFairQueue::Message HubFairQueue::pop() {
   const size_t size = message->bytes().size();
   // So that newcomers without end do not keep the others from their turn.
   now_ = std::max(now_, first->first) + (size + cost_of_any) / active_;
-  --s.share.messages, s.share.bytes -= size;
+  remove(s.share, size);
+  if (first->second.newcomer) remove(newcomers_, size);
   active_ -= s.share.messages == 0;
   waiting_.erase(first);
   if (waiting_.empty()) clear();
@@ -41,7 +47,8 @@ HubFairQueue::Message HubFairQueue::pop() {
 void HubFairQueue::clear() {
   waiting_.clear();
   senders_.clear();
-  active_ = now_ = 0;
+  newcomers_ = {};
+  active_ = now_ = newcomers_start_ = 0;
 }
 
 HubFairQueue::Share HubFairQueue::share(uint64_t sender) const {
@@ -54,7 +61,12 @@ HubFairQueue::Forgotten HubFairQueue::forget_heaviest() {
       senders_.begin(), senders_.end(),
       [](const auto& a, const auto& b) { return weight(a.second.share) < weight(b.second.share); });
   const Forgotten forgotten{heaviest->first, heaviest->second.share};
-  std::erase_if(waiting_, [&](const auto& w) { return w.second.sender == forgotten.sender; });
+  std::erase_if(waiting_, [&](const auto& entry) {
+    const auto& [sender, message, newcomer] = entry.second;
+    if (sender != forgotten.sender) return false;
+    if (newcomer) remove(newcomers_, message->bytes().size());
+    return true;
+  });
   senders_.erase(heaviest);
   --active_;
   if (waiting_.empty()) clear();

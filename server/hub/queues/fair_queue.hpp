@@ -13,7 +13,8 @@ namespace genio {
 /// others. Those of one sender stay in their order.
 ///
 /// It is weighted fair queueing with equal weights (Demers, Keshav and Shenker 1989), by the starts
-/// of messages. A message costs its bytes and a constant, as a receiver has work with each.
+/// of messages. A message costs its bytes and a constant, as a receiver has work with each. All
+/// newcomers together have the share of one, so that nobody gains by coming anew.
 class HubFairQueue {
  public:
   using Message = std::shared_ptr<const HubMessage>;
@@ -23,7 +24,7 @@ class HubFairQueue {
   };
 
   /// Throws std::bad_alloc, and nothing has changed then.
-  void push(uint64_t sender, Message message);
+  void push(uint64_t sender, Message message, bool newcomer = false);
   /// The next one; there must be one.
   Message pop();
   void clear();
@@ -33,6 +34,8 @@ class HubFairQueue {
   /// That are remembered; some more than those of whom something waits.
   size_t senders() const { return senders_.size(); }
   Share share(uint64_t sender) const;
+  /// What waits of those who were newcomers when they sent it.
+  Share newcomers() const { return newcomers_; }
 
   struct Forgotten {
     uint64_t sender = 0;
@@ -49,6 +52,7 @@ class HubFairQueue {
   struct Waiting {
     uint64_t sender;
     Message message;
+    bool newcomer;
   };
   void forget_idle_senders();
 
@@ -56,6 +60,8 @@ class HubFairQueue {
 
   std::multimap<uint64_t, Waiting> waiting_;  // by the start of each, in units of cost
   std::unordered_map<uint64_t, Sender> senders_;
+  Share newcomers_;
+  uint64_t newcomers_start_ = 0;
   size_t active_ = 0;  // senders of whom something waits
   size_t many_senders_ = few_senders;
   // The start of what would be taken now if all who wait had their equal shares at every moment.

@@ -11,6 +11,19 @@ namespace {
 
 using test::Dispatch;
 
+/// A dispatcher with a journal that knows nothing.
+struct DispatchWithJournal {
+  explicit DispatchWithJournal(const std::vector<ModelIdentity>& models)
+      : dispatcher({}, models, {[](const std::string&) { return std::nullopt; }}) {}
+  void acknowledge(const std::string& id, const std::string& client) {
+    ack_t ack{};
+    ack.id = id, ack.client = client;
+    const auto bytes = encode(ack);
+    dispatcher.receive_ack(bytes.data(), bytes.size());
+  }
+  Dispatcher dispatcher;
+};
+
 TEST_F(Dispatch, RequestsComeInTheOrderOfTheirArrival) {
   ask("a"), ask("b");
   EXPECT_EQ(next(), "a");
@@ -96,9 +109,38 @@ TEST_F(Dispatch, OnlySoManyClientsWaitForOneRequest) {
   EXPECT_EQ(replies().size(), 16u);
 }
 
+// One client could fill the queue, and everybody else was refused.
+TEST_F(Dispatch, TheLastPlacesAreForThoseOfWhomFewWait) {
+  Dispatcher busy({.waiting = 40}, models);
+  const auto ask_busy = [&](const std::string& id, const std::string& client) {
+    shape_request_t r{};
+    r.id = id, r.client = client, r.point_count = 1;
+    r.x_mm = r.y_mm = r.z_mm = r.sigma_mm = {1}, r.kind = {"tip"};
+    const auto bytes = encode(r);
+    busy.receive_request(bytes.data(), bytes.size(), now_us());
+  };
+  for (int k = 0; k < 100; ++k) ask_busy("a" + std::to_string(k), "greedy");
+  EXPECT_EQ(counts(busy).queued, 40);
+  for (int k = 0; k < 5; ++k) ask_busy("b" + std::to_string(k), "modest");
+  EXPECT_EQ(counts(busy).queued, 44);
+  for (int k = 0; k < 30; ++k) ask_busy("c" + std::to_string(k), "m" + std::to_string(k));
+  EXPECT_EQ(counts(busy).queued, 50);
+}
+
+TEST_F(Dispatch, AnAcknowledgementWithALongNameIsDropped) {
+  DispatchWithJournal kept(models);
+  kept.acknowledge(std::string(60000, 'x'), "c"), kept.acknowledge("a", "no name at all");
+  EXPECT_TRUE(kept.dispatcher.take_outgoing().records.empty());
+  EXPECT_EQ(counts(kept.dispatcher).unreadable, 2);
+  kept.acknowledge("a", "c");
+  const auto outgoing = kept.dispatcher.take_outgoing();
+  ASSERT_EQ(outgoing.records.size(), 1u);
+  EXPECT_EQ(std::get<DeliveredRecord>(outgoing.records[0]).client, "c");
+}
+
 // A queue of requests with names of megabytes once took 1.26 GB.
 TEST_F(Dispatch, WhatWaitsIsBoundedInBytes) {
-  Dispatcher small({.waiting = 100, .waiting_bytes = 5000}, models);
+  Dispatcher small({.waiting = 100, .waiting_bytes = 4000}, models);
   shape_request_t r{};
   r.client = "c", r.point_count = 50;
   r.x_mm.resize(50), r.y_mm.resize(50), r.z_mm.resize(50), r.sigma_mm.resize(50);

@@ -73,9 +73,9 @@ TEST_F(DispatchStream, AFrameStartsWhereTheOneBeforeEnded) {
   ask_frame("1", "s"), ask_frame("2", "s"), ask_frame("3", "t"), ask_frame("4", "s", "other");
   EXPECT_TRUE(next_frame()->start.empty());
   end("1", {7});
+  EXPECT_TRUE(next_frame()->start.empty());  // another client
   EXPECT_EQ(next_frame()->start, std::vector<uint8_t>{7});
   EXPECT_TRUE(next_frame()->start.empty());  // another stream
-  EXPECT_TRUE(next_frame()->start.empty());  // another client
 }
 
 TEST_F(DispatchStream, HigherPrioritiesPassButNotWithinAStream) {

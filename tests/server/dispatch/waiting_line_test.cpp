@@ -31,6 +31,25 @@ TEST(WaitingLine, WhatComesBackStandsWhereItStood) {
   EXPECT_EQ(line.next({})->id, "1");
 }
 
+TEST(WaitingLine, ClientsOfOnePriorityHaveTheirTurnsOneAfterAnother) {
+  WaitingLine line;
+  for (const char* id : {"1", "2", "3", "4"}) line.add({id, 0, "", 1, "many"});
+  EXPECT_EQ(line.next({})->id, "1");
+  line.add({"a", 0, "", 1, "few"}), line.add({"b", 0, "", 1, "few"});
+  EXPECT_EQ(line.size_of("many"), 3u);
+  EXPECT_EQ(line.ids(), (std::vector<std::string>{"2", "a", "3", "b", "4"}));
+  line.add({"now", 1, "", 1, "many"});
+  EXPECT_EQ(line.next({})->id, "now");
+}
+
+TEST(WaitingLine, WhoComesLaterDoesNotCatchUp) {
+  WaitingLine line;
+  for (const char* id : {"1", "2", "3", "4"}) line.add({id, 0, "", 1, "first"});
+  line.next({}), line.next({});
+  line.add({"a", 0, "", 1, "second"}), line.add({"b", 0, "", 1, "second"});
+  EXPECT_EQ(line.ids(), (std::vector<std::string>{"3", "a", "4", "b"}));
+}
+
 TEST(StreamStates, TheLongestUnusedAreForgottenFirst) {
   StreamStates states(2, 100);
   states.keep("a", {1}), states.keep("b", {2}), states.keep("a", {3}), states.keep("c", {4});

@@ -154,6 +154,33 @@ TEST(FavouredConnection, WhoLeavesWhileHeldBackKeepsNobodyBusy) {
   EXPECT_LT(processor_seconds() - before, 0.15);
 }
 
+TEST(FavouredConnection, WhoComesAnewForEachMessageGainsNothing) {
+  HubLimits limits;
+  limits.connections = 40;
+  Hub hub(0, limits);
+  RawClient service = service_of(hub), honest = RawClient::greeted(hub.port());
+  honest.subscribe("HONEST");
+  std::this_thread::sleep_for(milliseconds(1100));  // no newcomer any more
+  std::atomic<bool> stop{false};
+  std::thread coming([&] {
+    const auto one = tcpq::publication("SERVICE", std::string(40000, 'x'));
+    while (!stop) {
+      RawClient newcomer = RawClient::greeted(hub.port());
+      newcomer.send_some({one.data(), one.size()});
+    }
+  });
+  std::this_thread::sleep_for(milliseconds(1000));
+  honest.publish("SERVICE", "honest");
+  std::this_thread::sleep_for(milliseconds(200));
+  int before = 0;
+  while (before < 1000 && service.receive().value().payload != "honest") ++before;
+  EXPECT_LT(before, 20);
+  stop = true;
+  coming.join();
+  EXPECT_LT(hub.counts().queued_bytes, 4u << 20);
+  EXPECT_TRUE(honest.publish("SERVICE", "still there"));
+}
+
 TEST(FavouredConnection, LargeMessagesOfManyWaitForItWithinTheirRoom) {
   Hub hub(0);
   RawClient service = service_of(hub);

@@ -40,6 +40,7 @@ TEST_F(Journals, WhatWasSyncedIsThereAgainWithEveryByte) {
   EXPECT_EQ(second->status, "converged");
   EXPECT_EQ(second->answered_us, 77);
   EXPECT_EQ(second->tries, 1);
+  EXPECT_FALSE(again.delivered(id(2), 99, "somebody else"));
   EXPECT_TRUE(again.delivered(id(2), 99));
   again.sync();
   EXPECT_EQ(again.find(id(2))->delivered_us, 99);

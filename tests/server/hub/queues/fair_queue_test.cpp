@@ -77,6 +77,18 @@ TEST_F(FairQueue, NewcomersWithoutEndKeepNobodyFromHisTurn) {
   EXPECT_EQ(taken, 10);
 }
 
+TEST_F(FairQueue, AllNewcomersTogetherHaveTheShareOfOne) {
+  for (uint64_t sender = 10; sender < 1000; ++sender)
+    queue.push(sender, std::make_shared<const HubMessage>(std::vector<char>{'n'}, held), true);
+  for (int k = 0; k < 50; ++k) push(1, "a"), push(2, "b");
+  EXPECT_EQ(queue.newcomers().messages, 990u);
+  int newcomers = 0;
+  for (int k = 0; k < 150; ++k) newcomers += pop() == "n";
+  EXPECT_NEAR(newcomers, 50, 2);
+  while (!queue.empty()) pop();
+  EXPECT_EQ(queue.newcomers().messages, 0u);
+}
+
 TEST_F(FairQueue, SendersWhoLeftCostNothing) {
   push(0, "waits");
   for (uint64_t sender = 1; sender < 100000; ++sender) {
