@@ -130,6 +130,16 @@ expect 2 'cannot be made' "$genio" invert --target "$example" --out words.csv/be
 (ulimit -f 4; expect 2 'File too large' "$genio" invert --target "$example" --out large; exit $failed) || failed=1
 expect 1 'genio serve' "$genio" request --lcm tcpq://127.0.0.1:7799 --target "$example" --timeout-s 1
 [ "$(grep -c . err)" -le 2 ] || { echo "FAILED: a library prints"; cat err; failed=1; }
+# A stack of contours becomes a closed surface.
+awk 'BEGIN {print "slice,point,x_mm,y_mm,z_mm"; for (s = 0; s < 6; ++s) for (p = 0; p < 40; ++p) {
+  a = p * 3.14159265 / 20; printf "%d,%d,%.4f,%.4f,%.1f\n", s, p, 9 * cos(a), 9 * sin(a), 3 * s}}' >stack.csv
+expect 0 '"closed":true' "$genio" surface stack.csv --out stack.obj --triangles 300 --step 0.8 --json
+expect 0 '"euler":2' "$genio" surface stack.obj --out again.obj --distance 0.2 --keep 9,0,6,3 --json
+expect 2 'does nothing without --keep' "$genio" surface stack.csv --out s.obj --keep-distance 1
+expect 2 '--label: goes with a label volume only' "$genio" surface stack.csv --out s.obj --label 3
+expect 2 'unknown kind' "$genio" surface "$source/README.md" --out s.obj
+expect 2 'expected a name in .obj' "$genio" surface stack.csv --out s.stl
+expect 2 'no column slice' "$genio" surface "$example" --out s.obj
 # Benchmarks are a program beside this one.
 expect 0 'Benchmarks:' "$genio" bench --help
 expect 2 'not in' "$genio" bench nothing

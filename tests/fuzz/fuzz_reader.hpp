@@ -23,6 +23,7 @@ std::vector<FuzzReader> contour_readers();
 std::vector<FuzzReader> hub_readers();
 std::vector<FuzzReader> model_readers();
 std::vector<FuzzReader> run_readers();
+std::vector<FuzzReader> surface_input_readers();
 std::vector<FuzzReader> speaker_readers();
 std::vector<FuzzReader> wire_readers();
 
