@@ -222,7 +222,8 @@ class DispatchPlay {
     dispatcher_.tell(status);
     hold(dispatcher_.running() == running_.size() && status.running == int(running_.size()),
          "something else runs than was begun");
-    hold(status.queued >= 0 && size_t(status.queued) <= size_t(few_requests().waiting) * 5 / 4 + returned_,
+    hold(status.queued >= 0 &&
+             size_t(status.queued) <= size_t(few_requests().waiting) * 5 / 4 + returned_,
          "too many wait");
     dispatcher_.take_notes(), dispatcher_.take_drops();
   }
