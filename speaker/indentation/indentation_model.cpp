@@ -65,7 +65,7 @@ IndentationModel::IndentationModel(const Experiment& e, double greatest_depth,
                                    const BlockTissue& about, const BlockGrid& grid)
     : IndentationModel(Made(e, greatest_depth, about, grid)) {}
 
-IndentationModel::IndentationModel(Made made)
+IndentationModel::IndentationModel(const Made& made)
     : experiment(made.experiment),
       contact(made.contact),
       indenter(made.indenter),

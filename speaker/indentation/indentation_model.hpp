@@ -39,7 +39,7 @@ struct IndentationModel {
 
  private:
   struct Made;
-  explicit IndentationModel(Made made);
+  explicit IndentationModel(const Made& made);
 };
 
 }  // namespace genio

@@ -57,6 +57,25 @@ Json overheads(const std::string& url, const std::vector<shape_request_t>& quest
           {"memory_mb_last", last ? last->memory_mb : std::nan("")}};
 }
 
+Json memory_of_many(const std::string& url, const shape_request_t& question, int count) {
+  Client client(url);
+  client.status(patience_s);
+  double first_mb = 0;
+  int replies = 0;
+  const auto memory_mb = [&] {
+    const auto s = fresh_status(client, patience_s);
+    return s ? s->memory_mb : std::nan("");
+  };
+  for (int k = 0; k < count; ++k) {
+    shape_request_t r = question;
+    r.deadline_s = 4e-3;
+    replies += client.request(r, patience_s).has_value();
+    if (k == count / 10) first_mb = memory_mb();
+  }
+  return {
+      {"memory_replies", replies}, {"memory_mb_first", first_mb}, {"memory_mb_last", memory_mb()}};
+}
+
 double throughput(const std::string& url, const std::vector<shape_request_t>& questions,
                   int clients, int each) {
   Client(url).status(patience_s);

@@ -11,6 +11,10 @@ namespace genio::bench {
 /// end [MB]: `memory_mb_first`, `memory_mb_last`.
 Json overheads(const std::string& url, const std::vector<shape_request_t>& questions, int count);
 
+/// The resident memory of the server at a tenth of so many requests and at the end [MB]:
+/// `memory_mb_first`, `memory_mb_last`. They end at a deadline of some milliseconds each.
+Json memory_of_many(const std::string& url, const shape_request_t& question, int count);
+
 /// Requests answered in a second, asked by several clients at once.
 double throughput(const std::string& url, const std::vector<shape_request_t>& questions,
                   int clients, int each);

@@ -64,6 +64,10 @@ Json run_service(const BenchOptions& o, const Progress& progress) {
     figures.update(beside_long(two.url(), lasting, questions));
     progress("deadlines are measured");
   }
+  if (o.only == "memory") {  // not usual, as its figures only tell something of many requests
+    one.start();
+    figures.update(memory_of_many(one.url(), lasting, requests));
+  }
   if (asked_for("attacks")) {
     attacked.start();
     figures.update(under_attack(attacked, questions.front(), attacked_s, progress));
@@ -86,7 +90,7 @@ Benchmark service_bench() {
       .options = {{"--sample", "requests (400)"},
                   {"--seed", "which workers are killed"},
                   {"--only",
-                   "overhead, throughput, deadlines, attacks or kills (these over "
+                   "overhead, throughput, deadlines, attacks, memory or kills (these over "
                    "LCM_DEFAULT_URL, if that is set)"}},
       .run = run_service};
 }
