@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <string>
 
 namespace genio {
 
@@ -17,6 +18,13 @@ ProcessMemory memory_of(pid_t process) {
 }
 
 ProcessMemory own_memory() { return memory_of(getpid()); }
+
+size_t peak_memory_of(pid_t process) {
+  std::ifstream in(fmt::format("/proc/{}/status", process));
+  for (std::string word; in >> word;)
+    if (size_t kib = 0; word == "VmHWM:" && in >> kib) return kib << 10;
+  return 0;
+}
 
 void limit_addresses([[maybe_unused]] size_t more) {
 #ifndef __SANITIZE_ADDRESS__

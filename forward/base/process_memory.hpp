@@ -16,6 +16,9 @@ struct ProcessMemory {
 ProcessMemory memory_of(pid_t process);
 ProcessMemory own_memory();
 
+/// The most that a process has had in memory so far [bytes]; 0 where it is gone.
+size_t peak_memory_of(pid_t process);
+
 /// Bounds the addresses of this process to what it has now and so many bytes more. Does nothing
 /// with the address sanitizer, which keeps terabytes of them to itself.
 void limit_addresses(size_t more);

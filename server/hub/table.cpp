@@ -154,7 +154,6 @@ bool HubTable::drop_heaviest_share(HubConnection& receiver) {
 
 void HubTable::favour(HubConnection& c) {
   favoured_ = c.id;
-  c.standing.favoured = true;
   c.backlog.share_fairly();
   // What stands in the buffers of the system can no longer give way to others.
   setsockopt(c.socket.get(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent, sizeof most_unsent);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "inverse/recording/base/table_text.hpp"
+#include "speaker/solid/table_columns.hpp"
 
 namespace genio {
 namespace {
@@ -26,10 +26,7 @@ std::array<size_t, column_count> stack_columns(const std::vector<std::string>& h
                                                const TablePlace& place) {
   std::array<size_t, column_count> at{};
   for (size_t k = 0; k < column_count; ++k) {
-    const auto is_it = [&](const std::string& f) {
-      return lower_case(trimmed(f)) == column_names[k];
-    };
-    at[k] = size_t(std::find_if(header.begin(), header.end(), is_it) - header.begin());
+    at[k] = column_named(header, column_names[k]);
     if (at[k] == header.size() && k != col_contour)
       place.fail(
           fmt::format("no column {}; expected slice, point, x_mm, y_mm, z_mm and perhaps "
@@ -115,13 +112,11 @@ ContourStack read_contour_stack(const std::string& path) {
     if (fields.size() != header.size())
       lines.fail(other_count(fields.size(), "the header", header.size(), line));
     const auto number = [&](StackColumn k) {
-      const std::string field = trimmed(fields[column[k]]);
-      double value = 0;
-      if (!numbers.parse(field, value))
-        lines.fail(fmt::format("column {}: {}", column_names[k], numbers.complaint(field)));
+      const std::string& field = fields[column[k]];
+      const double value = number_of_column(column_names[k], field, numbers, lines);
       if (std::abs(value) > farthest_mm)
-        lines.fail(
-            fmt::format("column {}: {} is out of all range", column_names[k], in_quotes(field)));
+        lines.fail(fmt::format("column {}: {} is out of all range", column_names[k],
+                               in_quotes(trimmed(field))));
       return value;
     };
     const bool several = column[col_contour] < header.size();

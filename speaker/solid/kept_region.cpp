@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "inverse/recording/base/table_text.hpp"
+#include "speaker/solid/table_columns.hpp"
 
 namespace genio {
 namespace {
@@ -36,8 +36,7 @@ void read_balls(KeptRegion& region, const std::string& path) {
   std::array<size_t, 4> column{};
   const auto header = fields_of(line, separator);
   for (size_t k = 0; k < 4; ++k) {
-    const auto is_it = [&](const std::string& f) { return lower_case(trimmed(f)) == names[k]; };
-    column[k] = size_t(std::find_if(header.begin(), header.end(), is_it) - header.begin());
+    column[k] = column_named(header, names[k]);
     if (column[k] == header.size())
       lines.fail(fmt::format("no column {}; expected x_mm, y_mm, z_mm and radius_mm", names[k]));
   }
@@ -48,8 +47,7 @@ void read_balls(KeptRegion& region, const std::string& path) {
       lines.fail(other_count(fields.size(), "the header", header.size(), line));
     std::array<double, 4> xyzr{};
     for (size_t k = 0; k < 4; ++k)
-      if (!numbers.parse(trimmed(fields[column[k]]), xyzr[k]))
-        lines.fail(fmt::format("column {}: {}", names[k], numbers.complaint(fields[column[k]])));
+      xyzr[k] = number_of_column(names[k], fields[column[k]], numbers, lines);
     if (region.balls.size() >= most_balls)
       lines.fail(fmt::format("expected at most {} places to keep", most_balls));
     add_ball(region, xyzr.data(), fmt::format("{}:{}", path, lines.number()));

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "forward/base/process_memory.hpp"
 #include "server/hub/hub.hpp"
 #include "server/link/tcp_address.hpp"
 #include "server/service.hpp"
@@ -97,10 +98,9 @@ void ServerProcess::kill() {
 }
 
 double ServerProcess::peak_mb() const {
-  std::ifstream in(fmt::format("/proc/{}/status", server_.pid));
-  for (std::string word; in >> word;)
-    if (double kB = 0; word == "VmHWM:" && in >> kB) return 1e-3 * 1.024 * kB;
-  throw std::runtime_error("the memory of a server cannot be read");
+  const size_t peak = peak_memory_of(server_.pid);
+  if (peak == 0) throw std::runtime_error("the memory of a server cannot be read");
+  return 1e-6 * double(peak);
 }
 
 std::vector<pid_t> ServerProcess::workers() const {

@@ -45,6 +45,7 @@ std::optional<uint64_t> HubBacklog::forget_heaviest() {
 }
 
 void HubBacklog::take_from_shares() {
+  if (shared_.empty()) return;
   size_t settled = 0;
   for (const auto& message : queue_) settled += message->bytes().size();
   while (!shared_.empty() && queue_.size() < settled_messages && settled < settled_bytes) {

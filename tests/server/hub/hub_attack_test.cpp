@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <thread>
-
 #include "server/hub/hub.hpp"
 #include "server/hub/protocol/tcpq.hpp"
 #include "tests/server/hub/honest_client.hpp"
+#include "tests/server/hub/meanwhile.hpp"
 #include "tests/server/hub/raw_client.hpp"
 
 namespace genio {
@@ -15,6 +13,7 @@ namespace {
 
 using test::eventually;
 using test::HonestClient;
+using test::Meanwhile;
 using test::milliseconds;
 using test::RawClient;
 using test::worst_of;
@@ -27,26 +26,6 @@ constexpr double soon_ms = 500;  // on a machine that others use too
 constexpr milliseconds patience{30000};
 constexpr double while_ms = 600;             // how long the honest client is watched
 constexpr size_t largest_payload = 4 << 20;  // payload
-
-/// Does something again and again, in a thread of its own, until it is destroyed.
-class Meanwhile {
- public:
-  template <class Work>
-  explicit Meanwhile(Work work)
-      : thread_([this, work]() mutable {
-          while (!stop_) work();
-        }) {}
-  ~Meanwhile() {
-    stop_ = true;
-    thread_.join();
-  }
-  Meanwhile(const Meanwhile&) = delete;
-  Meanwhile& operator=(const Meanwhile&) = delete;
-
- private:
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
 
 /// The first bytes of a publication that claims `payload` bytes.
 std::vector<char> beginning(size_t payload, size_t sent) {

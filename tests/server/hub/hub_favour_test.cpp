@@ -3,18 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include "forward/base/elapsed.hpp"
 #include "server/hub/hub.hpp"
 #include "server/hub/protocol/tcpq.hpp"
+#include "tests/server/hub/meanwhile.hpp"
 #include "tests/server/hub/raw_client.hpp"
 
 namespace genio {
 namespace {
 
 using test::eventually;
+using test::Meanwhile;
 using test::milliseconds;
 using test::RawClient;
 
@@ -57,23 +60,17 @@ TEST(FavouredConnection, FloodsWaitWhileItHasMuchToRead) {
     many.insert(many.end(), one.begin(), one.end());
   }
   RawClient flooder = RawClient::greeted(hub.port()), honest = RawClient::greeted(hub.port());
-  std::atomic<bool> stop{false};
-  std::thread flooding([&] {
-    size_t sent = 0;
-    while (!stop) {
-      const ssize_t n = flooder.send_some({many.data() + sent, many.size() - sent});
-      if (n < 0) break;
-      sent = (sent + size_t(n)) % many.size();
-      if (n == 0) std::this_thread::sleep_for(milliseconds(1));
-    }
+  std::optional<Meanwhile> flooding(std::in_place, [&, sent = size_t(0)]() mutable {
+    const ssize_t n = flooder.send_some({many.data() + sent, many.size() - sent});
+    if (n > 0) sent = (sent + size_t(n)) % many.size();
+    else std::this_thread::sleep_for(milliseconds(1));
   });
   std::this_thread::sleep_for(milliseconds(1000));  // in which the service computes
   EXPECT_EQ(hub.counts().dropped(HubDrop::slow_reader), 0u);
   const uint64_t before = hub.counts().messages_in;
   honest.publish("OTHER", "x");
   EXPECT_TRUE(reader.receive());
-  stop = true;
-  flooding.join();
+  flooding.reset();
   EXPECT_TRUE(service.receive());
   // What waited in the system's buffers is taken once the service reads.
   ASSERT_TRUE(eventually(
@@ -85,31 +82,16 @@ TEST(FavouredConnection, FloodsWaitWhileItHasMuchToRead) {
   EXPECT_EQ(hub.counts().dropped(HubDrop::slow_reader), 0u);
 }
 
-/// Publishes whenever the hub takes it, in a thread of its own.
-class LightFlood {
- public:
-  LightFlood(uint16_t port, size_t connections)
-      : thread_([this, port, connections] {
-          std::vector<RawClient> clients;
-          for (size_t k = 0; k < connections; ++k) clients.push_back(RawClient::greeted(port));
-          const auto bytes = tcpq::publication("SERVICE", std::string(200, 'x'));
-          while (!stop_) {
-            for (RawClient& c : clients) c.send_some({bytes.data(), bytes.size()});
-            // As many who send little each do: none of them has more ready than a turn takes.
-            std::this_thread::sleep_for(std::chrono::microseconds(100));
-          }
-        }) {}
-  ~LightFlood() {
-    stop_ = true;
-    thread_.join();
-  }
-  LightFlood(const LightFlood&) = delete;
-  LightFlood& operator=(const LightFlood&) = delete;
-
- private:
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
+/// A turn of many who send little each: none of them has more ready than a turn of the hub takes.
+auto light_flood(uint16_t port, size_t connections) {
+  std::vector<RawClient> all;
+  for (size_t k = 0; k < connections; ++k) all.push_back(RawClient::greeted(port));
+  return [clients = std::make_shared<std::vector<RawClient>>(std::move(all)),
+          bytes = tcpq::publication("SERVICE", std::string(200, 'x'))] {
+    for (RawClient& c : *clients) c.send_some({bytes.data(), bytes.size()});
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  };
+}
 
 TEST(FavouredConnection, ManyWhoSendALittleEachDoNotCostItItsPlace) {
   HubLimits limits;
@@ -117,7 +99,7 @@ TEST(FavouredConnection, ManyWhoSendALittleEachDoNotCostItItsPlace) {
   Hub hub(0, limits);
   RawClient service = service_of(hub);
   {
-    const LightFlood flood(hub.port(), 20);
+    const Meanwhile flood(light_flood(hub.port(), 20));
     std::this_thread::sleep_for(milliseconds(1000));  // in which the service computes
   }
   for (int k = 0; k < 100; ++k) ASSERT_TRUE(service.receive());
@@ -127,7 +109,7 @@ TEST(FavouredConnection, ManyWhoSendALittleEachDoNotCostItItsPlace) {
 TEST(FavouredConnection, WhoSendsOneMessageGoesBeforeThoseOfWhomMuchWaits) {
   Hub hub(0);
   RawClient service = service_of(hub), honest = RawClient::greeted(hub.port());
-  const LightFlood flood(hub.port(), 20);
+  const Meanwhile flood(light_flood(hub.port(), 20));
   ASSERT_TRUE(eventually([&] { return hub.counts().messages_in > 1000; }));
   honest.publish("SERVICE", "honest");
   ASSERT_TRUE(eventually([&] { return hub.counts().connections == 22; }));
@@ -161,13 +143,10 @@ TEST(FavouredConnection, WhoComesAnewForEachMessageGainsNothing) {
   RawClient service = service_of(hub), honest = RawClient::greeted(hub.port());
   honest.subscribe("HONEST");
   std::this_thread::sleep_for(milliseconds(1100));  // no newcomer any more
-  std::atomic<bool> stop{false};
-  std::thread coming([&] {
-    const auto one = tcpq::publication("SERVICE", std::string(40000, 'x'));
-    while (!stop) {
-      RawClient newcomer = RawClient::greeted(hub.port());
-      newcomer.send_some({one.data(), one.size()});
-    }
+  const auto one = tcpq::publication("SERVICE", std::string(40000, 'x'));
+  std::optional<Meanwhile> coming(std::in_place, [&] {
+    RawClient newcomer = RawClient::greeted(hub.port());
+    newcomer.send_some({one.data(), one.size()});
   });
   std::this_thread::sleep_for(milliseconds(1000));
   honest.publish("SERVICE", "honest");
@@ -175,8 +154,7 @@ TEST(FavouredConnection, WhoComesAnewForEachMessageGainsNothing) {
   int before = 0;
   while (before < 1000 && service.receive().value().payload != "honest") ++before;
   EXPECT_LT(before, 20);
-  stop = true;
-  coming.join();
+  coming.reset();
   EXPECT_LT(hub.counts().queued_bytes, 4u << 20);
   EXPECT_TRUE(honest.publish("SERVICE", "still there"));
 }
