@@ -1,20 +1,8 @@
 #include "speaker/solid/parts.hpp"
 
-#include <numeric>
+#include "forward/geometry/joined_sets.hpp"
 
 namespace genio {
-
-JoinedSets::JoinedSets(size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
-
-int JoinedSets::set(int i) {
-  while (above_[size_t(i)] != i) {
-    above_[size_t(i)] = above_[size_t(above_[size_t(i)])];
-    i = above_[size_t(i)];
-  }
-  return i;
-}
-
-void JoinedSets::join(int i, int k) { above_[size_t(set(i))] = set(k); }
 
 std::vector<int> part_of_triangles(const TriangleSurface& surface,
                                    const std::vector<TriangleSide>& sides) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "forward/geometry/joined_sets.hpp"
 #include "speaker/solid/parts.hpp"
 
 namespace genio {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
+
+#include "forward/geometry/joined_sets.hpp"
 
 namespace genio {
 namespace {
@@ -14,16 +15,11 @@ constexpr double bone_depth = 8e-3;  // behind a sheet: teeth and lip, palate an
 
 /// A representative vertex of each vertex's connected part.
 std::vector<int> parts(const TriangleSurface& surface) {
-  std::vector<int> parent(surface.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[size_t(v)] != v) v = parent[size_t(v)] = parent[size_t(parent[size_t(v)])];
-    return v;
-  };
-  for (const auto& t : surface.triangles)
-    parent[size_t(root(t[1]))] = root(t[0]), parent[size_t(root(t[2]))] = root(t[0]);
-  for (size_t v = 0; v < parent.size(); ++v) parent[v] = root(int(v));
-  return parent;
+  JoinedSets sets(surface.vertices.size());
+  for (const auto& t : surface.triangles) sets.join(t[1], t[0]), sets.join(t[2], t[0]);
+  std::vector<int> part(surface.vertices.size());
+  for (size_t v = 0; v < part.size(); ++v) part[v] = sets.set(int(v));
+  return part;
 }
 
 /// Edges that one triangle has, in its direction.
