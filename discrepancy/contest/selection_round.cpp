@@ -14,14 +14,14 @@
 namespace genio {
 namespace {
 
-constexpr double behind = 0.4;  // of the best gain, that a score must promise for a refit
 // Log odds, at least and of the best, of contenders that the mesh's error may reorder: an open jaw
 // gained 43 of 192 by its own.
 constexpr double close = 8, close_part = 0.15;
 
 /// The bar that the refits so far set for the next one.
 struct Bar {
-  double gained = 0;  // by the best contender, of log evidence
+  double gained = 0;    // by the best contender, of log evidence
+  double promised = 0;  // of that, by its score
   double give_up_above = std::numeric_limits<double>::infinity();  // minus the log posterior
 };
 
@@ -100,10 +100,11 @@ CandidateRefit refit_in_full(RankedCandidate r, const NullModel& null_model,
 }
 
 /// The bar after a contender's refit.
-Bar raised(const Bar& bar, const ModelFit& model, const SelectionRound& s) {
-  const double gain = gain_of(model, s.null_model);
+Bar raised(const Bar& bar, const CandidateRefit& refit, const SelectionRound& s) {
+  const double gain = gain_of(refit.model, s.null_model);
   if (gain <= bar.gained && !s.contenders.empty()) return bar;
-  return {std::max(gain, bar.gained), model.fit.value + far_behind};
+  return {std::max(gain, bar.gained), refit.candidate.score.log_evidence,
+          refit.model.fit.value + far_behind};
 }
 
 /// The round with a candidate's refit entered.
@@ -161,9 +162,9 @@ SelectionRound refitted(SelectionRound s, const DiscoverOptions& options) {
   for (size_t i : chosen) {
     const RankedCandidate& r = s.round.candidates[i];
     // What a straight line puts this far behind no refit brings to the front.
-    if (r.score.log_evidence < behind * bar.gained) continue;
+    if (promises_too_little(r.score.log_evidence, bar.promised, bar.gained)) continue;
     CandidateRefit next = refit_in_full(r, s.null_model, heldout_influences, bar, options);
-    if (next.contends) bar = raised(bar, next.model, s);
+    if (next.contends) bar = raised(bar, next, s);
     s = with_refit(std::move(s), i, std::move(next));
   }
   return s;

@@ -13,6 +13,7 @@ constexpr int most_places = 2;  // of one effect that are refitted in a round
 // A straight line underrates effects that grow faster, but not by everything: log odds, as a part
 // of the best ones and beyond that, below which no candidate is refitted.
 constexpr double least_part = 0.2, least_below = 5;
+constexpr double behind = 0.4;  // of the score in front, which a refit made good
 
 }  // namespace
 
@@ -51,6 +52,10 @@ std::vector<size_t> worth_a_refit(const std::vector<RankedCandidate>& scored, in
     if (++count[r.candidate.effect] <= most_places) result.push_back(i);
   }
   return result;
+}
+
+bool promises_too_little(double score, double score_in_front, double gained) {
+  return score < behind * std::min(score_in_front, gained);
 }
 
 Weights weigh(const std::vector<double>& log_odds) {

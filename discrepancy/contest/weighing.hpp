@@ -19,6 +19,11 @@ std::vector<RankedCandidate> as_scored(const std::vector<Candidate>& all,
 /// indices into `scored`, the likeliest first.
 std::vector<size_t> worth_a_refit(const std::vector<RankedCandidate>& scored, int most);
 
+/// True where a candidate's score [log evidence] is too far behind that of the contender that its
+/// refit has put in front. Scores are held against scores: a straight line may promise a third of
+/// what refits gain, to this candidate as to that one. `gained`: by that contender's refit.
+bool promises_too_little(double score, double score_in_front, double gained);
+
 /// How likely the null model and its rivals are.
 struct Weights {
   double nothing = 1;                 ///< probability of the null model

@@ -37,6 +37,15 @@ TEST(Choice, TakesTheLikeliestAndAtMostTwoOfOneEffect) {
   EXPECT_TRUE(worth_a_refit({}, 5).empty());
 }
 
+// An open jaw of score 36 was left out once, as the head pose of score 37 had gained 97 by its
+// refit.
+TEST(WorthARefit, IsHeldAgainstTheScoreInFrontNotAgainstWhatItsRefitGained) {
+  EXPECT_FALSE(promises_too_little(36, 37, 97));
+  EXPECT_TRUE(promises_too_little(36, 97, 97));
+  EXPECT_FALSE(promises_too_little(36, 97, 37));  // a refit that gained little bars nobody
+  EXPECT_FALSE(promises_too_little(5, 0, 0));
+}
+
 TEST(Choice, LeavesOutWhatTheDataDoNotSeeAndWhatIsFarBehind) {
   std::vector<RankedCandidate> all = {scored_as("gravity", "", 50), scored_as("jaw_opening", "", 1),
                                       scored_as("airway_pressure", "", 40)};
