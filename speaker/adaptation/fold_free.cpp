@@ -21,6 +21,8 @@ struct ElementTerms {
   Mat24 stiffness = Mat24::Zero();
 };
 
+/// Corners smaller than this part of their element are no shape to keep.
+constexpr double poor_corner = 0.25;
 constexpr double no_energy = std::numeric_limits<double>::infinity();
 
 /// Adds the derivative of the edges' matrix by the nodes, seen through `by_edges`, to `v`.
@@ -147,14 +149,20 @@ double assemble(const FoldFreeProblem& p, const Positions& x, Vector& gradient, 
 
 CornerShapes corner_shapes(const HexMesh& mesh) {
   CornerShapes shapes(mesh.elements.size());
-  for (size_t e = 0; e < mesh.elements.size(); ++e)
-    for (int c = 0; c < 8; ++c) {
-      const Mat3 edges = corner_edges(
-          [&](int a) -> Vec3 { return mesh.nodes[size_t(mesh.elements[e][size_t(a)])]; }, c);
-      if (!(edges.determinant() > 0))
+  for (size_t e = 0; e < mesh.elements.size(); ++e) {
+    std::array<Mat3, 8> edges;
+    Mat3 middle = Mat3::Zero();
+    for (size_t c = 0; c < 8; ++c) {
+      edges[c] = corner_edges(
+          [&](int a) -> Vec3 { return mesh.nodes[size_t(mesh.elements[e][size_t(a)])]; }, int(c));
+      middle += edges[c] / 8;
+      if (!(edges[c].determinant() > 0))
         throw std::invalid_argument("corner_shapes: an element is folded");
-      shapes[e][size_t(c)] = edges.inverse();
     }
+    const double least = poor_corner * middle.determinant();
+    for (size_t c = 0; c < 8; ++c)
+      shapes[e][c] = (edges[c].determinant() > least ? edges[c] : middle).inverse();
+  }
   return shapes;
 }
 

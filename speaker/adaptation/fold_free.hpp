@@ -21,7 +21,8 @@ struct Pull {
 /// The elements' own shapes that cost nothing: inverse of the edges at each corner [1/m].
 using CornerShapes = std::vector<std::array<Mat3, 8>>;
 
-/// The shapes of a mesh's corners. Throws std::invalid_argument where one is folded.
+/// The shapes of a mesh's corners; a corner that is nearly folded has its element's mean shape in
+/// the place of its own, so that it opens. Throws std::invalid_argument where one is folded.
 CornerShapes corner_shapes(const HexMesh& mesh);
 
 /// What is minimised.

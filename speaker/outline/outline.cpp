@@ -78,7 +78,7 @@ class OutlineRows {
   }
 
   std::map<std::string, std::vector<Vec2>> by_name() const { return by_name_; }
-  const std::set<std::string>& speakers() const { return speakers_; }
+  const std::vector<std::string>& speakers() const { return in_order_; }
   std::string listed_speakers() const {
     if (speakers_.empty()) return "no --speaker, as the file has no column speaker";
     std::string list;
@@ -155,8 +155,8 @@ SpeakerOutline read_outline(const std::string& path, const std::string& speaker)
   if (speaker.empty() && rows.speakers().size() > 1)
     throw InputError(fmt::format("{}: {} speakers; choose with --speaker {}", path,
                                  rows.speakers().size(), rows.listed_speakers()));
-  SpeakerOutline outline{path, speaker, {}, false, {}};
-  if (speaker.empty() && rows.speakers().size() == 1) outline.speaker = *rows.speakers().begin();
+  SpeakerOutline outline{path, speaker, {}, false, false, {}};
+  if (speaker.empty() && rows.speakers().size() == 1) outline.speaker = rows.speakers().front();
   std::map<Segment, std::string> seen;
   for (auto& [name, points] : rows.by_name()) {
     const auto segment = segment_of(name);
@@ -173,6 +173,10 @@ SpeakerOutline read_outline(const std::string& path, const std::string& speaker)
     throw InputError(fmt::format("{}: no segment tongue; expected one of two points or more",
                                  outline.name()));
   return outline;
+}
+
+std::vector<std::string> outline_speakers(const std::string& path) {
+  return OutlineRows(path, "", true).speakers();
 }
 
 void read_outline_palate(const std::string& path, SpeakerOutline& outline) {

@@ -24,6 +24,7 @@ struct SpeakerOutline {
   /// The tongue's line is its free surface alone, from the floor of the mouth over tip and dorsum
   /// to the vallecula. Else it runs from the hyoid along the floor to the mandible first.
   bool free_surface_only = false;
+  bool mirrored = false;           ///< x was turned, as the outline faced the other way
   std::vector<std::string> notes;  ///< what was turned or taken for granted, one sentence each
 
   const std::vector<Vec2>& tongue() const { return segments.at(Segment::tongue); }
@@ -40,6 +41,9 @@ struct SpeakerOutline {
 /// tongue's free surface alone. Others are left out. Facing and order are those of the file.
 /// Throws InputError naming the file and row and what was expected.
 SpeakerOutline read_outline(const std::string& path, const std::string& speaker = "");
+
+/// The speakers that such a file holds, in its order; none where it has no column speaker.
+std::vector<std::string> outline_speakers(const std::string& path);
 
 /// Adds the palate of another file of the same form and the same origin, which takes the place of
 /// the outline's own. A file without the column segment is one line, the palate.

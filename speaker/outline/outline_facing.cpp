@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "speaker/outline/polyline.hpp"
@@ -69,6 +70,7 @@ bool faces_away(const SpeakerOutline& o) {
 SpeakerOutline facing_model(SpeakerOutline o) {
   if (faces_away(o)) {
     mirror_outline(o);
+    o.mirrored = true;
     o.notes.push_back("The outline faced the other way and was mirrored.");
   }
   std::vector<Vec2>& line = o.segments.at(Segment::tongue);

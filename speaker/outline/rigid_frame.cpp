@@ -41,7 +41,7 @@ std::vector<Vec2> from_tip(const std::vector<Vec2>& line) {
   const auto tip = std::min_element(line.begin(), line.end(), [](const Vec2& a, const Vec2& b) {
     return a.dot(Vec2(1, -0.5)) < b.dot(Vec2(1, -0.5));
   });
-  return {tip, line.end()};
+  return std::vector<Vec2>(tip, line.end());
 }
 
 }  // namespace
