@@ -45,7 +45,7 @@ TongueLandmarks tongue_landmarks(const SpeakerOutline& outline) {
                                [&](double s) { return line.at(s).dot(Vec2(-1, -1)); });
   const double middle = 0.75 * line.length();
   const double tip = foremost(line, marks.genial + 2 * corner_way, middle);
-  marks.floor = where_largest(line, marks.genial + 1.5 * corner_way, tip - corner_way,
+  marks.floor = where_largest(marks.genial + 1.5 * corner_way, tip - corner_way,
                               [&](double s) { return right_turn(line, s); });
   marks.tip = foremost(line, marks.floor + corner_way, middle);
   if (!(marks.genial < marks.floor && marks.floor < marks.tip && marks.tip < marks.vallecula))
