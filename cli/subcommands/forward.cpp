@@ -14,6 +14,7 @@
 #include "cli/support.hpp"
 #include "forward/base/elapsed.hpp"
 #include "forward/base/text_file.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "report/answers/motion_report.hpp"
@@ -73,7 +74,9 @@ int run_statics(const Model& m, const ForwardOptions& o) {
 
 int run(const ForwardOptions& o) {
   if (!o.suite.empty()) return run_suite(o);
-  const Model m = changed_model(o.model, o.changes);
+  const Model changed = changed_model(o.model, o.changes);
+  const auto here = at_anatomy(changed);  // displacements are from the rest of that anatomy
+  const Model& m = *here;
   if (!o.dynamic) return run_statics(m, o);
   return run_motion(m, o.motion, o.out, o.json);
 }

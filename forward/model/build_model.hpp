@@ -11,6 +11,16 @@ namespace genio {
 /// Builds the effects. `source` is named in errors.
 Model build_model(const ModelDescription& description, const std::string& source);
 
+/// The model with its rest configuration moved by these values, one a mode of anatomy. It shares
+/// the pattern of couplings, so that workspaces serve both. Throws InputError where an element
+/// turns inside out.
+Model moved_model(const Model& model, const std::vector<double>& values);
+
+/// What the effects of such a description are made from, those of a moved one with the shares of
+/// the standing one's fibres.
+Anatomy anatomy_of(const ModelDescription& description, const std::string& source,
+                   const ModelDescription* standing = nullptr);
+
 /// read_description and build_model.
 Model read_model(const std::string& path);
 

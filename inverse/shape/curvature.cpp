@@ -1,5 +1,6 @@
 #include "inverse/shape/curvature.hpp"
 
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/target/comparison.hpp"
 #include "inverse/target/comparison_curvature.hpp"
 #include "inverse/target/head_pose.hpp"
@@ -33,10 +34,25 @@ Matrix force_by_unknown(const Model& model, const std::vector<Unknown>& unknowns
   return pulls;
 }
 
+Matrix held_by_unknown(const Model& model, const std::vector<Unknown>& unknowns,
+                       const Parameters& p) {
+  Matrix motion = Matrix::Zero(model.rest.size(), Eigen::Index(unknowns.size()));
+  for (size_t c = 0; c < unknowns.size(); ++c)
+    for (size_t i = 0; i < unknowns[c].parameters.size(); ++i) {
+      const int k[] = {unknowns[c].parameters[i]};
+      if (mode_of(model, k[0]) >= 0)
+        motion.col(Eigen::Index(c)) +=
+            unknowns[c].shares[i] * unknowns[c].slope(p[k[0]]) * held_motion(model, k);
+    }
+  return motion;
+}
+
 Matrix pull_changes(const Model& model, const std::vector<Unknown>& unknowns, const Vector& z,
                     const Positions& x, const Parameters& p, const Vector& adjoint) {
+  const Matrix held = held_by_unknown(model, unknowns, p);
   const auto pulls = [&](const Vector& at) -> Vector {
-    return force_by_unknown(model, unknowns, x, apply_unknowns(unknowns, at, p)).transpose() *
+    return force_by_unknown(model, unknowns, x + held * (at - z), apply_unknowns(unknowns, at, p))
+               .transpose() *
            adjoint;
   };
   const Eigen::Index n = z.size();
@@ -79,15 +95,16 @@ Matrix mechanical_curvature(const Model& model, const std::vector<Unknown>& unkn
   const Eigen::Index n = z.size();
   if (size == 0) return Matrix::Zero(n, n);
   const double h = step / size;
+  const Matrix free = positions - held_by_unknown(model, unknowns, p);
   const Positions up = x + h * adjoint, down = x - h * adjoint;
-  const Matrix bent = (products(model, up, p, positions, ws.stiffness) -
-                       products(model, down, p, positions, ws.stiffness)) /
-                      (2 * h);
+  const Matrix bent =
+      (products(model, up, p, free, ws.stiffness) - products(model, down, p, free, ws.stiffness)) /
+      (2 * h);
   const Matrix pulled =
       (force_by_unknown(model, unknowns, up, p) - force_by_unknown(model, unknowns, down, p)) /
       (2 * h);
-  const Matrix crossed = positions.transpose() * pulled;
-  const Matrix s = crossed + crossed.transpose() - positions.transpose() * bent +
+  const Matrix crossed = free.transpose() * pulled;
+  const Matrix s = crossed + crossed.transpose() - free.transpose() * bent +
                    pull_changes(model, unknowns, z, x, p, adjoint);
   return 0.5 * (s + s.transpose());
 }

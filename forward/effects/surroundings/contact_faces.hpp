@@ -46,6 +46,12 @@ std::shared_ptr<const ContactFaces> contact_faces(const TriangleSurface& surface
                                                   const std::vector<Support>& supports,
                                                   double apart = 0.25e-3);
 
+/// The same points of a mesh and a surface that have moved: their areas, and what they keep from
+/// the bone, are new. Which points there are, and which may touch, is as it was.
+std::shared_ptr<const ContactFaces> moved_faces(const ContactFaces& standing,
+                                                const TriangleSurface& surface,
+                                                const HexMesh& mesh);
+
 /// A point between four corners by their weights.
 inline Vec3 blend(const std::array<Vec3, 4>& x, const std::array<double, 4>& weight) {
   return weight[0] * x[0] + weight[1] * x[1] + weight[2] * x[2] + weight[3] * x[3];

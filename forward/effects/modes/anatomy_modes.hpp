@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "forward/effects/kind.hpp"
+
+namespace genio {
+
+/// Modes of a speaker's anatomy: X -> X + sum_k m_k U_k(X) for every point X of the rest
+/// configuration, that of nodes, fixed fibre points and bones. The term has no energy of its own:
+/// the energies of all others are those of the rest configuration that it says. Parameters: one a
+/// mode, m_k [standard deviations among speakers], 0 the model as it stands.
+class AnatomyModes final : public Term {
+ public:
+  explicit AnatomyModes(std::vector<ParameterInfo> info) : info_(std::move(info)) {}
+
+  std::string_view name() const override { return "anatomy"; }
+  std::span<const ParameterInfo> parameters() const override { return info_; }
+
+ private:
+  std::vector<ParameterInfo> info_;
+};
+
+EffectKind anatomy_kind();
+
+}  // namespace genio
