@@ -40,6 +40,7 @@ int run_suite(const ForwardOptions& o) {
 void print_statics(const StaticsResult& r) {
   fmt::print("equilibrium in {} Newton steps, {} factorisations, {:.2f} s\n", r.newton_iterations,
              r.factorizations, r.wall_s);
+  print_anatomy(r.anatomy);
   print_landmarks(r.shape->landmarks);
   fmt::print("  volume {:+.3f} %, deepest contact {:.3f} mm\n", r.shape->volume_change_percent,
              r.shape->max_penetration_mm);
@@ -55,6 +56,7 @@ int run_statics(const Model& m, const ForwardOptions& o) {
                        .newton_iterations = e.newton_iterations,
                        .factorizations = e.factorizations,
                        .wall_s = watch.seconds(),
+                       .anatomy = anatomy_values(m, p),
                        .shape = {}};
   if (e)
     result.shape = StaticsResult::Shape{

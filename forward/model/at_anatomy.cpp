@@ -58,6 +58,13 @@ std::shared_ptr<const Model> at_anatomy(const Model& model) {
   return at_anatomy(model, default_parameters(model));
 }
 
+std::map<std::string, double> anatomy_values(const Model& model, const Parameters& p) {
+  std::map<std::string, double> result;
+  for (const auto& modes : model.anatomy)
+    for (const int k : modes.inputs) result[model.parameters[size_t(k)].name.key] = p[k];
+  return result;
+}
+
 int mode_of(const Model& model, int k) {
   if (!model.shapes) return -1;
   const auto& inputs = model.anatomy.front().inputs;

@@ -2,6 +2,7 @@
 // A model at an anatomy: what the values of its modes make of its rest configuration.
 
 #include <deque>
+#include <map>
 #include <mutex>
 #include <span>
 
@@ -42,6 +43,9 @@ Vector held_by_mode(const Model& model, int mode);
 /// A shape of some anatomy, carried along the modes to that of `p`: as far as those nodes tell that
 /// the bones hold, and exactly where the shape is the model's rest.
 Positions carried(const Model& model, const Positions& shape, const Parameters& p);
+
+/// The values of a model's modes by their names [standard deviations]; none without the effect.
+std::map<std::string, double> anatomy_values(const Model& model, const Parameters& p);
 
 /// Number of the mode that parameter `k` is the value of; -1: of none.
 int mode_of(const Model& model, int k);

@@ -173,6 +173,10 @@ std::vector<Matrix> motion_sensitivity(const Model& given, const Controls& contr
     throw InputError(given.name +
                      ": activation_dynamics lets forces lag behind commands; dynamic "
                      "inversion finds the forces themselves, so leave it out");
+  for (const auto& combination : controls.combinations)
+    for (const Controls::Share& share : combination)
+      if (mode_of(given, share.parameter) >= 0)
+        throw InputError(given.name + ": a mode of anatomy is no unknown of a movement");
   ws.check(given);
   const auto here = at_anatomy(given, commands.at(0));
   const Model& model = *here;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "forward/effects/kind.hpp"
+#include "forward/effects/modes/moved_rest.hpp"
 
 namespace genio {
 
@@ -19,6 +20,11 @@ class AnatomyModes final : public Term {
  private:
   std::vector<ParameterInfo> info_;
 };
+
+/// Two modes in closed form, for a tongue without measured ones: `size`, 5 % of all lengths about
+/// the attachments at the jaw, and `pharynx`, 3 mm of depth that sets in smoothly behind the middle
+/// between tip and root.
+std::vector<NamedField> plain_modes(const ModelDescription& description);
 
 EffectKind anatomy_kind();
 
