@@ -27,6 +27,11 @@ struct AnatomyMode {
   std::vector<Vec3> palate, jaw, hyoid;  ///< of the surfaces' vertices
 };
 
+/// The displacement of the nodes by one standard deviation of a mode, as 3 n values [m].
+inline Vector nodal_field(const AnatomyMode& mode) {
+  return Eigen::Map<const Vector>(mode.nodes.data()->data(), 3 * Eigen::Index(mode.nodes.size()));
+}
+
 /// What a model folder says, before any effect is built from it.
 struct ModelDescription {
   std::string name;

@@ -13,9 +13,10 @@ namespace genio {
 /// `anatomy`; its modes are then at 0.
 ///
 /// With the fields U: dF/dm = G + K U', where U' is the part of U that unknowns can follow, K the
-/// stiffness, and G what the forces do while the shape moves along with its rest configuration, a
-/// central difference of fourth order over potentials that are made anew. Such a motion strains the
-/// tissue little, so that G is smooth over a large step.
+/// stiffness, and G what the forces do while the shape moves along with its rest configuration: of
+/// contacts in closed form, of all other potentials a central difference of fourth order over
+/// potentials that are made anew. Such a motion strains the tissue little, so that G is smooth over
+/// a large step.
 Matrix force_by_modes(const Model& model, const Positions& x, const Parameters& p,
                       std::span<const int> modes);
 

@@ -101,8 +101,4 @@ ModelDescription moved(ModelDescription d, std::span<const double> values) {
   return d;
 }
 
-Vector nodal_field(const AnatomyMode& mode) {
-  return Eigen::Map<const Vector>(mode.nodes.data()->data(), 3 * Eigen::Index(mode.nodes.size()));
-}
-
 }  // namespace genio

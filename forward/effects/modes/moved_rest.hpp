@@ -35,7 +35,4 @@ void check_modes(const ModelDescription& description, const std::string& source)
 /// all else stay. Places that effects' tables name, a hinge or the centre of a region, do not move.
 ModelDescription moved(ModelDescription description, std::span<const double> values);
 
-/// The displacement of the nodes by one standard deviation of a mode, as 3 n values [m].
-Vector nodal_field(const AnatomyMode& mode);
-
 }  // namespace genio

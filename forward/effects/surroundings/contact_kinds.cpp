@@ -12,7 +12,7 @@ namespace {
 /// With the surface of a bone ("palate").
 Effect contact(Settings& s, const Anatomy& a, const std::string& bone,
                std::optional<TriangleSurface> ModelDescription::*of,
-               const std::optional<Vec3>& hinge = {}) {
+               std::vector<Vec3> AnatomyMode::*moving, const std::optional<Vec3>& hinge = {}) {
   const ModelDescription& d = a.description;
   const auto& surface = d.*of;
   const std::string name = bone + "_contact";
@@ -24,7 +24,7 @@ Effect contact(Settings& s, const Anatomy& a, const std::string& bone,
   auto faces = contact_faces(*(standing.*of), standing.mesh, a.supports);
   if (a.standing) faces = moved_faces(*faces, *surface, d.mesh);
   const auto placed = std::make_shared<const ContactSurface>(ContactSurface{faces, hinge});
-  const auto touch = std::make_shared<Contact>(name, placed, stiffness);
+  const auto touch = std::make_shared<Contact>(name, placed, stiffness, moving);
   return {.potential = touch,
           .dissipation = std::make_shared<ContactDamping>(name, placed, damping),
           .contact = touch};
@@ -61,24 +61,26 @@ Belief there_or_not() { return {.parameters = {{.parameter = "stiffness", .typic
 }  // namespace
 
 EffectKind palate_contact_kind() {
-  return {
-      .name = "palate_contact",
-      .make = [](Settings& s,
-                 const Anatomy& a) { return contact(s, a, "palate", &ModelDescription::palate); },
-      .external = true,
-      .belief = there_or_not(),
-      .sample = {{"stiffness", 1e7}, {"damping", 8}},
-      .hidden =
-          [](const ChangeDraw&) {
-            return nearer_bone("palate_contact", &ModelDescription::palate, {0, 0, -1});
-          }};
+  return {.name = "palate_contact",
+          .make =
+              [](Settings& s, const Anatomy& a) {
+                return contact(s, a, "palate", &ModelDescription::palate, &AnatomyMode::palate);
+              },
+          .external = true,
+          .belief = there_or_not(),
+          .sample = {{"stiffness", 1e7}, {"damping", 8}},
+          .hidden =
+              [](const ChangeDraw&) {
+                return nearer_bone("palate_contact", &ModelDescription::palate, {0, 0, -1});
+              }};
 }
 
 EffectKind jaw_contact_kind() {
   return {.name = "jaw_contact",
           .make =
               [](Settings& s, const Anatomy& a) {
-                return contact(s, a, "jaw", &ModelDescription::jaw, opening_hinge(a));
+                return contact(s, a, "jaw", &ModelDescription::jaw, &AnatomyMode::jaw,
+                               opening_hinge(a));
               },
           .external = true,
           .belief = there_or_not(),
