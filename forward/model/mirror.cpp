@@ -136,7 +136,7 @@ Matrix Mirror::right_half(const Matrix& of_whole) const {
 }
 
 std::unique_ptr<const Mirror> mirror_of(const Model& m, const std::vector<std::string>& names) {
-  if (!m.description) return nullptr;
+  if (!m.description || m.is_moved) return nullptr;
   const std::vector<int> partner = partners(m.mesh);
   if (partner.empty()) return nullptr;
   const Positions x = trial_shape(m);

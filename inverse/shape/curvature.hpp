@@ -17,7 +17,8 @@ Matrix force_by_unknown(const Model& model, const std::vector<Unknown>& unknowns
 Matrix held_by_unknown(const Model& model, const std::vector<Unknown>& unknowns,
                        const Parameters& p);
 
-/// adjoint . dP_j/dz_i, P the pulls; zero, and cheap, where forces are linear in the unknowns.
+/// adjoint . dP_j/dz_i, P the pulls, while the shape goes along with modes of anatomy; zero, and
+/// cheap, where forces are linear in the unknowns. Of two modes it is zero: little is strained.
 Matrix pull_changes(const Model& model, const std::vector<Unknown>& unknowns, const Vector& z,
                     const Positions& x, const Parameters& p, const Vector& adjoint);
 
@@ -34,8 +35,8 @@ Matrix target_curvature(const Comparison& comparison, const Positions& x, const 
 /// adjoint K lambda = sum r dr/dx, differentiating K X = P once more gives
 ///   lambda . K X_ij = -X_i . (dK) X_j + X_i . (dP_j) + X_j . (dP_i) + lambda . dP_j/dz_i,
 /// (dK) and (dP) the derivatives along lambda: the energy's third derivatives are symmetric, so one
-/// direction serves all pairs of unknowns. Bones that go with a mode are no unknowns: X is without
-/// held_by_unknown() here, and dP goes along with them. By differences, so that every effect and
+/// direction serves all pairs of unknowns. With modes of anatomy, X and P are those of a shape that
+/// goes along with their fields. By differences, so that every effect and
 /// parameter counts: two assemblies. Overwrites ws.stiffness.
 Matrix mechanical_curvature(const Model& model, const std::vector<Unknown>& unknowns,
                             const Vector& z, const Positions& x, const Parameters& p,
