@@ -54,6 +54,10 @@ Model build_model(const ModelDescription& d, const std::string& source) {
 Model moved_model(const Model& model, const std::vector<double>& values) {
   ModelParts parts =
       parts_of(moved(*model.description, values), model.name, model.description.get());
+  const auto alike = [](const Effect& a, const Effect& b) { return a.name() == b.name(); };
+  if (!std::ranges::equal(parts.effects, model.effects, alike))
+    throw InputError(model.name +
+                     ": its effects are not those of its description, so that no mode moves it");
   parts.is_moved = true, parts.pattern = model.pattern;
   return Model(std::move(parts));
 }
