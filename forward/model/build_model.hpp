@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "forward/effects/anatomy.hpp"
 #include "forward/model/model.hpp"
 #include "forward/model/model_file.hpp"
 
