@@ -21,6 +21,10 @@ void add_shape(Json& j, const StaticsResult::Shape& shape) {
   }
 }
 
+void add_anatomy(Json& j, const std::map<std::string, double>& values) {
+  for (const auto& [mode, value] : values) j["anatomy"][mode] = value;
+}
+
 }  // namespace
 
 std::string info_json(const Model& m, double smallest_corner_jacobian_ratio) {
@@ -50,6 +54,7 @@ std::string statics_json(const StaticsResult& r) {
   j["status"] = r.shape ? "converged" : "failed", j["message"] = r.message;
   j["newton_iterations"] = r.newton_iterations, j["factorizations"] = r.factorizations;
   j["wall_s"] = r.wall_s;
+  add_anatomy(j, r.anatomy);
   if (r.shape) add_shape(j, *r.shape);
   return j.dump();
 }
@@ -61,6 +66,7 @@ std::string motion_json(const MotionResult& r) {
   j["simulated_s"] = r.simulated_s;
   j["newton_iterations"] = r.newton_iterations, j["factorizations"] = r.factorizations;
   j["wall_s"] = r.wall_s;
+  add_anatomy(j, r.anatomy);
   j["realtime_factor"] = r.simulated_s > 0 ? r.wall_s / r.simulated_s : 0;
   if (r.end) {
     add_shape(j, r.end->shape);

@@ -1,6 +1,7 @@
 #pragma once
 // What subcommands print for programs, each one JSON object.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct StaticsResult {
   std::string message;
   int newton_iterations, factorizations;
   double wall_s;
+  std::map<std::string, double> anatomy;  ///< modes' values [sd]; displacements are from its rest
   std::optional<Shape> shape;
 };
 
@@ -35,6 +37,7 @@ struct MotionResult {
   double simulated_s;
   int newton_iterations, factorizations;
   double wall_s;
+  std::map<std::string, double> anatomy;  ///< as of an equilibrium
   std::optional<End> end;
 };
 

@@ -7,6 +7,7 @@
 
 #include "cli/result_json.hpp"
 #include "cli/support.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "inverse/recording/sensor_place.hpp"
@@ -41,7 +42,9 @@ Runner add_info(Options& options) {
   options.flag("--json", *json, "One JSON object on standard output");
   options.footer("Example: genio info --json");
   return [=]() -> int {
-    const Model m = read_model(*model);
+    const Model read = read_model(*model);
+    const auto here = at_anatomy(read);
+    const Model& m = *here;
     double ratio = 1;
     for (size_t e = 0; e < m.mesh.elements.size(); ++e)
       ratio = std::min(ratio, corner_jacobian_ratio(m.mesh, int(e)));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/shape/curvature.hpp"
 #include "inverse/shape/objective.hpp"
 #include "inverse/shape/summary.hpp"
@@ -48,8 +49,11 @@ class FullSpace final : public NonlinearProgram {
     v << model_.dofs.pick(x - model_.rest) / length, z;
     return v;
   }
+  /// Unknowns say where nodes are in space, so that only what is held goes with an anatomy.
   Positions shape(const Vector& v) const {
-    return model_.rest + model_.dofs.expand(length * v.head(free_));
+    const auto here = at_anatomy(model_, apply_unknowns(unknowns_, unknowns(v), base_));
+    const Vector u = length * v.head(free_) - model_.dofs.pick(here->rest - model_.rest);
+    return here->rest + model_.dofs.expand(u);
   }
   Vector unknowns(const Vector& v) const { return v.tail(count_); }
   WorkClock& clock() { return clock_; }
@@ -66,6 +70,8 @@ class FullSpace final : public NonlinearProgram {
     g.resize(v.size());
     g << length * model_.dofs.reduce(misfit_gradient(residuals_, x_.size())),
         prior_.gradient(unknowns(v)) +
+            held_by_unknown(model_, unknowns_, p_).transpose() *
+                misfit_gradient(residuals_, x_.size()) +
             by_pose_.transpose() * (residuals_.pose.transpose() * residuals_.values);
     return true;
   }

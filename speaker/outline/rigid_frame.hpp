@@ -1,0 +1,20 @@
+#pragma once
+#include "forward/effects/description.hpp"
+#include "inverse/recording/registration/registration.hpp"
+#include "speaker/outline/outline.hpp"
+
+namespace genio {
+
+/// The midsagittal line of a palate from the incisors' lower edge backwards to the arch's top, from
+/// any line along it that faces the model; empty where it has no such part.
+std::vector<Vec2> front_of_palate(const std::vector<Vec2>& line);
+
+/// How an outline that faces the model lies in the model's frame: a rigid motion (scale 1), as a
+/// scale belongs to the anatomy. The front of the palate lies on the model's, matched by parts of
+/// its length, where both have one; else the lines of the tongues are laid on one another so.
+Similarity rigid_frame(const SpeakerOutline& outline, const ModelDescription& model);
+
+/// The outline moved there.
+SpeakerOutline moved_outline(SpeakerOutline outline, const Similarity& to_model);
+
+}  // namespace genio
