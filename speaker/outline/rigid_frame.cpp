@@ -19,8 +19,16 @@ std::vector<Vec2> equally_spaced(const std::vector<Vec2>& points) {
   return samples;
 }
 
-/// The rigid motion closest to taking each place to its partner (Procrustes; the scale that they
-/// differ by tilts nothing and is left where it is).
+/// The model's free surface line from the tip to the root; the outline's likewise.
+std::vector<Vec2> from_tip(const std::vector<Vec2>& line) {
+  const auto tip = std::min_element(line.begin(), line.end(), [](const Vec2& a, const Vec2& b) {
+    return a.dot(Vec2(1, -0.5)) < b.dot(Vec2(1, -0.5));
+  });
+  return std::vector<Vec2>(tip, line.end());
+}
+
+}  // namespace
+
 Similarity rigid_motion(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
   Vec2 from_middle = Vec2::Zero(), to_middle = Vec2::Zero();
   for (size_t k = 0; k < from.size(); ++k) from_middle += from[k], to_middle += to[k];
@@ -35,16 +43,6 @@ Similarity rigid_motion(const std::vector<Vec2>& from, const std::vector<Vec2>& 
   s.shift = to_middle - s(from_middle);
   return s;
 }
-
-/// The model's free surface line from the tip to the root; the outline's likewise.
-std::vector<Vec2> from_tip(const std::vector<Vec2>& line) {
-  const auto tip = std::min_element(line.begin(), line.end(), [](const Vec2& a, const Vec2& b) {
-    return a.dot(Vec2(1, -0.5)) < b.dot(Vec2(1, -0.5));
-  });
-  return std::vector<Vec2>(tip, line.end());
-}
-
-}  // namespace
 
 std::vector<Vec2> front_of_palate(const std::vector<Vec2>& given) {
   if (given.size() < 3) return {};

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/figures/speaker/outline_sheet.hpp"
+#include "bench/figures/speaker/sparse.hpp"
 #include "bench/problems/clock.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/statics/equilibrium.hpp"
@@ -80,8 +81,9 @@ Json outlines(const BenchOptions& o, const Progress& progress) {
 }
 
 Json run_speaker_bench(const BenchOptions& o, const Progress& progress) {
+  if (o.only == "sparse") return sparse_figures(o, progress);
   if (!o.only.empty() && o.only != "outlines")
-    throw InputError(fmt::format("bench speaker --only {}: expected outlines", o.only));
+    throw InputError(fmt::format("bench speaker --only {}: expected outlines or sparse", o.only));
   return outlines(o, progress);
 }
 
@@ -91,7 +93,7 @@ Benchmark speaker_bench() {
   return {.name = "speaker",
           .about = "Models adapted to speakers' outlines: distances, elements, equilibria",
           .options = {{"--data", "CSV of the speakers' outlines", true},
-                      {"--only", "outlines"},
+                      {"--only", "outlines or sparse (outlines)"},
                       {"--sample", "speakers (all)"},
                       {"--out", "picture of all, without its ending"}},
           .run = run_speaker_bench};
