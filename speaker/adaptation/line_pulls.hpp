@@ -1,6 +1,6 @@
 #pragma once
-#include "speaker/adaptation/fold_free.hpp"
 #include "speaker/adaptation/model_line.hpp"
+#include "speaker/elastic/fold_free.hpp"
 
 namespace genio {
 

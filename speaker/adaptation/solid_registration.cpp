@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "speaker/adaptation/mirror_halves.hpp"
+#include "speaker/elastic/mirror_halves.hpp"
 
 namespace genio {
 namespace {

@@ -1,4 +1,4 @@
-#include "speaker/adaptation/fold_free.hpp"
+#include "speaker/elastic/fold_free.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "forward/algebra/cholesky.hpp"
-#include "speaker/adaptation/corner_shape.hpp"
+#include "speaker/elastic/corner_shape.hpp"
 
 namespace genio {
 namespace {
