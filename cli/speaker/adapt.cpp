@@ -33,6 +33,7 @@ nlohmann::ordered_json adapt_json(const AdaptCommand& o, const Adaptation& a, do
   j["modes"] = nlohmann::ordered_json::object(), j["modes_sd"] = nlohmann::ordered_json::object();
   if (a.outline.speaker.empty()) j["speaker"] = nullptr;
   else j["speaker"] = a.outline.speaker;
+  j["rest_overlap_mm"] = a.rest_overlap * 1e3;
   j["scale"] = a.scale, j["repaired_elements"] = a.repaired;
   j["max_force_scale"] = a.max_force_scale, j["notes"] = a.outline.notes;
   if (a) j["out"] = o.out;
@@ -43,8 +44,7 @@ nlohmann::ordered_json adapt_json(const AdaptCommand& o, const Adaptation& a, do
 
 std::optional<SpeakerSurface> given_surface(const AdaptCommand& o) {
   if (!o.surface.empty()) return SpeakerSurface{read_surface(o.surface), o.surface};
-  if (!o.slices.empty())
-    return SpeakerSurface{stack_sides(read_contour_stack(o.slices)), o.slices};
+  if (!o.slices.empty()) return SpeakerSurface{stack_sides(read_contour_stack(o.slices)), o.slices};
   return std::nullopt;
 }
 
@@ -87,8 +87,7 @@ Runner add_adapt(Options& options) {
   auto o = std::make_shared<AdaptCommand>();
   options.add("--model", o->model, "Model folder or model.toml that is adapted");
   options.add("--outline", o->outline,
-              "Midsagittal outline (CSV: segment, point, x_cm and y_cm, or x_mm and y_mm)",
-              {});
+              "Midsagittal outline (CSV: segment, point, x_cm and y_cm, or x_mm and y_mm)", {});
   options.add("--speaker", o->speaker, "Whose rows to take, where the file has several speakers",
               {.only_with = {"--outline"}});
   options.add("--palate", o->palate, "Palate of the same origin, in the place of the outline's",

@@ -74,6 +74,7 @@ void carry_along(const ModelDescription& base, const ModelLine& line, const std:
     for (Fibre& fibre : muscle.fibres)
       for (FibrePoint& p : fibre)
         if (p.node < 0) p.anchor = bones.map.in_space(p.anchor, lateral);
+  a.rest_overlap = rest_overlap(a.model);
   a.max_force_scale = scale_forces(base, a.model);
   a.model.name = fmt::format("{} adapted to {}", base.name, who);
   a.model.provenance =
@@ -122,10 +123,9 @@ Adaptation adapt_model(const ModelDescription& base, const std::string& source,
     const TongueLandmarks marks = tongue_landmarks(a.outline);
     LinePullOptions o;
     o.weight = solid_line_depth;
-    const SurfaceRegistration r =
-        register_surface(solid.mesh, there, [&](const Positions& x) {
-          return line_pulls(line, line.nodes, x, theirs, marks, o);
-        });
+    const SurfaceRegistration r = register_surface(solid.mesh, there, [&](const Positions& x) {
+      return line_pulls(line, line.nodes, x, theirs, marks, o);
+    });
     a.model.mesh = r.mesh, a.min_jacobian = r.min_jacobian, a.surface_rms = r.rms;
     a.distances = line_distances(line, line.nodes, rest_positions(r.mesh), theirs, marks);
     who += " and " + file_name(surface->source);

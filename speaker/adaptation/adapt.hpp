@@ -12,16 +12,17 @@ namespace genio {
 /// The model of a speaker and how well it meets what was given of him.
 struct Adaptation {
   ModelDescription model;
-  LineDistances distances;      ///< of its midsagittal line and the outline
-  double min_jacobian = 0;      ///< smallest ratio of corner Jacobians
-  double volume = 0;            ///< of the mesh [m^3]
-  double scale = 1;             ///< of lengths, from the base model
-  double palate_rms = 0;        ///< of the palate's front from the outline's [m]
-  double max_force_scale = 1;   ///< geometric mean over muscles
-  int repaired = 0;             ///< elements that had to be opened
+  LineDistances distances;            ///< of its midsagittal line and the outline
+  double min_jacobian = 0;            ///< smallest ratio of corner Jacobians
+  double volume = 0;                  ///< of the mesh [m^3]
+  double scale = 1;                   ///< of lengths, from the base model
+  double palate_rms = 0;              ///< of the palate's front from the outline's [m]
+  double rest_overlap = 0;            ///< of the tongue at rest with palate or jaw [m]
+  double max_force_scale = 1;         ///< geometric mean over muscles
+  int repaired = 0;                   ///< elements that had to be opened
   std::optional<double> surface_rms;  ///< of the outer nodes from the surface given [m]
-  SpeakerOutline outline;       ///< in the model's frame; empty where there was none
-  std::string message;          ///< why it cannot be used; empty where it can
+  SpeakerOutline outline;             ///< in the model's frame; empty where there was none
+  std::string message;                ///< why it cannot be used; empty where it can
 
   explicit operator bool() const { return message.empty(); }
 };

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/geometry/surfaces/bone_distance.hpp"
+#include "forward/tissue/tongue_faces.hpp"
 #include "speaker/outline/rigid_frame.hpp"
 
 namespace genio {
 namespace {
 
 constexpr double bone_spacing = 3e-3, line_spacing = 3e-3;  // of pairs [m]
-constexpr double near_palate = 15e-3, near_jaw = 8e-3;       // [m]
+constexpr double near_palate = 15e-3, near_jaw = 8e-3;      // [m]
 constexpr double clearance = 3e-4;                          // between tongue and bone at rest [m]
 constexpr double bone_smoothing = 2e-4;
 constexpr int bone_rounds = 3;
@@ -45,7 +47,7 @@ std::vector<Vec2> samples_of(const std::vector<Vec2>& points) {
 /// Where a bone's places should go: to the nearest of the outline's lines, unless that is far or
 /// one of their ends.
 struct BoneGoals {
-  std::vector<Vec2> rest;     ///< of the bone's cut
+  std::vector<Vec2> rest;  ///< of the bone's cut
   std::vector<Polyline> lines;
   double near;
 
@@ -65,6 +67,24 @@ struct BoneGoals {
     }
   }
 };
+
+/// The part of the mandible's line that faces the tongue: from where the floor meets it up past the
+/// floor of the mouth to its top.
+std::vector<Vec2> inner_side_of_mandible(const SpeakerOutline& outline) {
+  const Polyline bone(outline.segments.at(Segment::mandible)), tongue(outline.tongue());
+  const TongueLandmarks marks = tongue_landmarks(outline);
+  const double low = bone.foot(tongue.at(marks.genial)).s;
+  const double middle = bone.foot(tongue.at(marks.floor)).s;
+  size_t top = 0;
+  for (size_t k = 0; k < bone.points().size(); ++k)
+    if (bone.points()[k][1] > bone.points()[top][1]) top = k;
+  double high = bone.arc()[top];
+  if ((middle - low) * (high - middle) < 0) high = middle;  // the line's ends lie in between
+  std::vector<Vec2> side;
+  const int parts = std::max(2, int(std::abs(high - low) / 1e-3));
+  for (int k = 0; k <= parts; ++k) side.push_back(bone.at(low + (high - low) * k / parts));
+  return side;
+}
 
 std::vector<Vec2> cut_samples(const std::optional<TriangleSurface>& surface) {
   if (!surface) return {};
@@ -92,21 +112,25 @@ CarriedBones carry_bones(const ModelDescription& model, const ModelLine& line, c
     const int parts = std::max(1, int(std::lround(gap / line_spacing)));
     for (int i = 0; i < parts; ++i) {
       const double t = double(i) / parts;
-      tongue.push_back({(1 - t) * before[k - 1] + t * before[k], (1 - t) * closed[k - 1] + t * closed[k]});
+      tongue.push_back(
+          {(1 - t) * before[k - 1] + t * before[k], (1 - t) * closed[k - 1] + t * closed[k]});
     }
   }
   std::vector<BoneGoals> goals;
   BoneGoals palate{cut_samples(model.palate), {}, near_palate};
-  for (Segment s : {Segment::palate, Segment::pharynx})
-    if (outline.has(s)) palate.lines.emplace_back(outline.segments.at(s));
+  if (outline.has(Segment::palate))
+    if (const auto side = underside_of_palate(outline.segments.at(Segment::palate)); !side.empty())
+      palate.lines.emplace_back(side);
+  if (outline.has(Segment::pharynx))
+    palate.lines.emplace_back(outline.segments.at(Segment::pharynx));
   BoneGoals jaw{cut_samples(model.jaw), {}, near_jaw};
-  if (outline.has(Segment::mandible)) jaw.lines.emplace_back(outline.segments.at(Segment::mandible));
+  if (outline.has(Segment::mandible) && !outline.free_surface_only)
+    jaw.lines.emplace_back(inner_side_of_mandible(outline));
   CarriedBones carried;
   carried.map = ThinPlateMap(tongue, bone_smoothing);
   for (int round = 0; round < bone_rounds; ++round) {
     std::vector<PlacePair> pairs = tongue;
-    for (const BoneGoals* g : {&palate, &jaw})
-      g->add(carried.map, section, to, pairs);
+    for (const BoneGoals* g : {&palate, &jaw}) g->add(carried.map, section, to, pairs);
     carried.map = ThinPlateMap(pairs, bone_smoothing);
   }
   if (outline.has(Segment::palate) && model.palate) {
@@ -124,6 +148,21 @@ CarriedBones carry_bones(const ModelDescription& model, const ModelLine& line, c
     }
   }
   return carried;
+}
+
+double rest_overlap(const ModelDescription& model) {
+  std::vector<Vec3> free;
+  std::vector<bool> seen(model.mesh.nodes.size(), false);
+  for (const Quad& q : free_faces(model.mesh, model.supports))
+    for (int a : q)
+      if (!seen[size_t(a)]) seen[size_t(a)] = true, free.push_back(model.mesh.nodes[size_t(a)]);
+  double deepest = 0;
+  for (const auto* surface : {&model.palate, &model.jaw}) {
+    if (!*surface) continue;
+    const BoneDistance distance(facing_tongue(**surface, model.mesh.nodes));
+    for (const Vec3& p : free) deepest = std::max(deepest, -distance(p));
+  }
+  return deepest;
 }
 
 }  // namespace genio

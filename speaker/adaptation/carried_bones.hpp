@@ -6,7 +6,7 @@ namespace genio {
 
 /// How what surrounds a tongue goes with it: bones, and the fixed ends of fibres.
 struct CarriedBones {
-  ThinPlateMap map;  ///< of the midsagittal plane
+  ThinPlateMap map;       ///< of the midsagittal plane
   double palate_rms = 0;  ///< of the palate's front from the outline's; 0 where one lacks it [m]
 };
 
@@ -15,5 +15,9 @@ struct CarriedBones {
 /// is drawn into the tongue's section, nor nearer than 0.3 mm.
 CarriedBones carry_bones(const ModelDescription& model, const ModelLine& line, const Positions& x,
                          const SpeakerOutline& outline);
+
+/// How deep the deepest free node of the tongue at rest lies within palate or jaw; 0 where none
+/// does [m].
+double rest_overlap(const ModelDescription& model);
 
 }  // namespace genio

@@ -64,8 +64,7 @@ std::vector<Pull> line_pulls(const ModelLine& line, const std::vector<int>& node
       const bool same_way = outline.tangent(foot.s).dot(ours.tangent(s)) > 0;
       if (o.by_length || !same_way)
         add(s, outline.at(there), across(outline.tangent(there), weight, std::max(o.along, 0.3)));
-      else
-        add(s, foot.place, across(outline.tangent(foot.s), weight, o.along));
+      else add(s, foot.place, across(outline.tangent(foot.s), weight, o.along));
     }
   }
   const int count = std::max(1, int(outline.length() / pull_spacing));

@@ -1,6 +1,6 @@
 #pragma once
-#include "speaker/adaptation/fold_free.hpp"
 #include "speaker/adaptation/model_line.hpp"
+#include "speaker/elastic/fold_free.hpp"
 
 namespace genio {
 
@@ -22,7 +22,7 @@ std::vector<Pull> line_pulls(const ModelLine& line, const std::vector<int>& node
 
 /// Distances between a mesh's midsagittal line and an outline, both ways, 0.5 mm apart [m].
 struct LineDistances {
-  double rms = 0, most = 0;          ///< all of it
+  double rms = 0, most = 0;            ///< all of it
   double free_rms = 0, floor_rms = 0;  ///< from the floor of the mouth on, and up to there
 };
 LineDistances line_distances(const ModelLine& line, const std::vector<int>& node,

@@ -18,9 +18,8 @@ std::vector<Quad> faces_in_plane(const HexMesh& mesh) {
     for (const auto& f : hex8::face) {
       const Quad quad = {element[size_t(f[0])], element[size_t(f[1])], element[size_t(f[2])],
                          element[size_t(f[3])]};
-      if (!std::all_of(quad.begin(), quad.end(), [&](int a) {
-            return std::abs(mesh.nodes[size_t(a)][1]) < on_plane;
-          }))
+      if (!std::all_of(quad.begin(), quad.end(),
+                       [&](int a) { return std::abs(mesh.nodes[size_t(a)][1]) < on_plane; }))
         continue;
       Quad key = quad;
       std::sort(key.begin(), key.end());
@@ -30,8 +29,7 @@ std::vector<Quad> faces_in_plane(const HexMesh& mesh) {
   for (const auto& [key, quad] : found) {
     // Counter-clockwise with x backwards as the first axis and z as the second.
     std::vector<Vec2> corners;
-    for (int a : quad)
-      corners.emplace_back(mesh.nodes[size_t(a)][0], mesh.nodes[size_t(a)][2]);
+    for (int a : quad) corners.emplace_back(mesh.nodes[size_t(a)][0], mesh.nodes[size_t(a)][2]);
     faces.push_back(quad);
     if (doubled_area(corners) < 0) std::reverse(faces.back().begin(), faces.back().end());
   }
@@ -64,8 +62,7 @@ std::vector<int> line_about(const std::vector<Quad>& faces) {
 
 std::vector<Vec2> ModelLine::places(const Positions& x) const {
   std::vector<Vec2> result;
-  for (size_t k = 0; k <= vallecula; ++k)
-    result.emplace_back(x[3 * nodes[k]], x[3 * nodes[k] + 2]);
+  for (size_t k = 0; k <= vallecula; ++k) result.emplace_back(x[3 * nodes[k]], x[3 * nodes[k] + 2]);
   return result;
 }
 
@@ -90,7 +87,8 @@ ModelLine model_line(const ModelDescription& model, const std::string& source) {
   const auto position = [&](int node) {
     return size_t(std::find(loop.begin(), loop.end(), node) - loop.begin());
   };
-  const size_t front = position(model.midsagittal.front()), root = position(model.midsagittal.back());
+  const size_t front = position(model.midsagittal.front()),
+               root = position(model.midsagittal.back());
   const size_t tip = position(model.landmarks.tip);
   if (front == n || root == n || tip == n)
     throw InputError(fmt::format(
@@ -103,8 +101,8 @@ ModelLine model_line(const ModelDescription& model, const std::string& source) {
   const auto go_back = [&](auto until, const char* what) {
     for (; back < n; ++back)
       if (until(support(front + n - back))) return front + n - back;
-    throw InputError(fmt::format("{}: no node of the midsagittal line is held at the {}", source,
-                                 what));
+    throw InputError(
+        fmt::format("{}: no node of the midsagittal line is held at the {}", source, what));
   };
   const size_t floor = go_back([](Support s) { return s == Support::fixed; }, "mandible");
   const size_t genial = go_back([](Support s) { return s != Support::fixed; }, "mandible") + 1;

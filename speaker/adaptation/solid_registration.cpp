@@ -3,21 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "speaker/adaptation/mirror_halves.hpp"
+#include "speaker/elastic/mirror_halves.hpp"
 
 namespace genio {
 namespace {
 
 constexpr double tissue_stiffness = 1e-5;  // of a corner's energy against squared distances [m]
-constexpr double wanted_ratio = 0.12;   // a little above the least one
+constexpr double wanted_ratio = 0.12;      // a little above the least one
 constexpr int most_repairs = 6;
 // What holds nodes at their places, against squared distances over volume.
 constexpr double node_hold = 0.3;
 
 /// The mesh with all nodes moved.
 HexMesh moved_mesh(HexMesh mesh, const Positions& x) {
-  for (size_t a = 0; a < mesh.nodes.size(); ++a)
-    mesh.nodes[a] = node_position(x, int(a));
+  for (size_t a = 0; a < mesh.nodes.size(); ++a) mesh.nodes[a] = node_position(x, int(a));
   return mesh;
 }
 

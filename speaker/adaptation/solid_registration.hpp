@@ -15,9 +15,9 @@ inline constexpr double solid_line_depth = 8e-3;
 /// The mesh of an adapted model.
 struct SolidRegistration {
   HexMesh mesh;
-  LineDistances distances;   ///< of its midsagittal line and the outline
-  double min_jacobian = 0;   ///< smallest ratio of corner Jacobians
-  int repaired = 0;          ///< elements whose ratio was too small before they were repaired
+  LineDistances distances;  ///< of its midsagittal line and the outline
+  double min_jacobian = 0;  ///< smallest ratio of corner Jacobians
+  int repaired = 0;         ///< elements whose ratio was too small before they were repaired
 };
 
 /// Every node goes to where the plane's map takes it, with y times `lateral`; then the elements as

@@ -20,8 +20,7 @@ constexpr int affine_rounds = 30;
 
 Mat3 across_surface(const Vec3& normal, double weight) {
   const Vec3 n = normal.normalized();
-  return weight *
-         (along_surface * Mat3::Identity() + (1 - along_surface) * n * n.transpose());
+  return weight * (along_surface * Mat3::Identity() + (1 - along_surface) * n * n.transpose());
 }
 
 HexMesh placed(HexMesh mesh, const Positions& x) {
@@ -73,8 +72,9 @@ std::vector<Pull> surface_pulls(const HexMesh& mesh, const std::vector<Quad>& fa
         normal.normalized().dot(foot.normal.normalized()) < 0.2)
       continue;
     const auto& own = ours.triangles[size_t(at)];
-    const auto w = closest_on_triangle(place, ours.vertices[size_t(own[0])],
-                                       ours.vertices[size_t(own[1])], ours.vertices[size_t(own[2])]);
+    const auto w =
+        closest_on_triangle(place, ours.vertices[size_t(own[0])], ours.vertices[size_t(own[1])],
+                            ours.vertices[size_t(own[2])]);
     pulls.push_back({{own[0], own[1], own[2], -1},
                      {w[0], w[1], w[2], 0},
                      place,

@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "forward/geometry/triangle_surface.hpp"
-#include "speaker/adaptation/fold_free.hpp"
+#include "speaker/elastic/fold_free.hpp"
 
 namespace genio {
 

@@ -100,7 +100,8 @@ class OutlineRows {
     const auto number = [&](size_t at, const std::string& name) {
       return number_of_column(name, fields[at], numbers, lines_);
     };
-    const std::string name = c.segment == c.none ? "palate" : lower_case(trimmed(fields[c.segment]));
+    const std::string name =
+        c.segment == c.none ? "palate" : lower_case(trimmed(fields[c.segment]));
     if (name.empty()) lines_.fail("column segment: is empty; expected a name such as tongue");
     const double point = number(c.point, "point");
     const auto last = last_.find(name);
@@ -109,13 +110,14 @@ class OutlineRows {
                               name, point, last->second));
     last_[name] = point;
     if (c.lateral != c.none && std::abs(number(c.lateral, "y")) * c.unit > 5e-3)
-      lines_.fail(fmt::format("segment {}, point {:g}: lies {:g} mm beside the midsagittal plane; "
-                              "expected y of 0, as z is up",
-                              name, point, number(c.lateral, "y") * c.unit * 1e3));
+      lines_.fail(
+          fmt::format("segment {}, point {:g}: lies {:g} mm beside the midsagittal plane; "
+                      "expected y of 0, as z is up",
+                      name, point, number(c.lateral, "y") * c.unit * 1e3));
     const Vec2 place(c.unit * number(c.x, c.x_name), c.unit * number(c.up, c.up_name));
     if (!(place.cwiseAbs().maxCoeff() < 10))
-      lines_.fail(fmt::format("segment {}, point {:g}: is out of all range; wrong units?", name,
-                              point));
+      lines_.fail(
+          fmt::format("segment {}, point {:g}: is out of all range; wrong units?", name, point));
     std::vector<Vec2>& points = by_name_[name];
     if (points.size() >= most_outline_points)
       lines_.fail(fmt::format("segment {}: expected at most {} points", name, most_outline_points));
@@ -136,12 +138,18 @@ class OutlineRows {
 
 std::string segment_name(Segment segment) {
   switch (segment) {
-    case Segment::tongue: return "tongue";
-    case Segment::palate: return "palate";
-    case Segment::mandible: return "mandible";
-    case Segment::hyoid: return "hyoid";
-    case Segment::pharynx: return "pharynx";
-    case Segment::epiglottis: break;
+    case Segment::tongue:
+      return "tongue";
+    case Segment::palate:
+      return "palate";
+    case Segment::mandible:
+      return "mandible";
+    case Segment::hyoid:
+      return "hyoid";
+    case Segment::pharynx:
+      return "pharynx";
+    case Segment::epiglottis:
+      break;
   }
   return "epiglottis";
 }
@@ -170,8 +178,8 @@ SpeakerOutline read_outline(const std::string& path, const std::string& speaker)
       outline.free_surface_only = true;
   }
   if (!outline.has(Segment::tongue))
-    throw InputError(fmt::format("{}: no segment tongue; expected one of two points or more",
-                                 outline.name()));
+    throw InputError(
+        fmt::format("{}: no segment tongue; expected one of two points or more", outline.name()));
   return outline;
 }
 

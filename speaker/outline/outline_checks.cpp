@@ -11,18 +11,12 @@ namespace genio {
 namespace {
 
 constexpr size_t fewest_points = 12, most_points_of_tongue = 5000;
-// Of the tongue's line; the 41 speakers' are 71 to 101 mm across and their lines 200 to 290 mm long.
+// Of the tongue's line; the 41 speakers' are 71 to 101 mm across and their lines 200 to 290 mm
+// long.
 constexpr double smallest_across = 0.035, largest_across = 0.16;  // [m]
-constexpr double widest_gap = 0.012;                             // between neighbours [m]
-constexpr double widest_opening = 0.05;                          // at the hyoid [m]
+constexpr double widest_gap = 0.012;                              // between neighbours [m]
+constexpr double widest_opening = 0.05;                           // at the hyoid [m]
 constexpr double deepest_crossing = 3e-3;  // of real contours and a palate at closures [m]
-
-bool sides_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const auto turn = [](const Vec2& p, const Vec2& q, const Vec2& r) {
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-  };
-  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
-}
 
 void check_crossings(const SpeakerOutline& o) {
   std::vector<Vec2> line = o.tongue();

@@ -12,8 +12,8 @@ Polyline::Polyline(std::vector<Vec2> points) : points_(std::move(points)), arc_(
 
 size_t Polyline::segment(double s) const {
   const auto after = std::upper_bound(arc_.begin(), arc_.end(), s);
-  return size_t(std::clamp<std::ptrdiff_t>(after - arc_.begin(), 1,
-                                           std::ptrdiff_t(arc_.size()) - 1));
+  return size_t(
+      std::clamp<std::ptrdiff_t>(after - arc_.begin(), 1, std::ptrdiff_t(arc_.size()) - 1));
 }
 
 Vec2 Polyline::at(double s) const {
@@ -43,6 +43,13 @@ Polyline::Foot Polyline::foot(const Vec2& q, double from, double to) const {
     if (distance < best.distance) best = {s, place, distance};
   }
   return best;
+}
+
+bool sides_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto turn = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+  };
+  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }
 
 double doubled_area(const std::vector<Vec2>& closed) {

@@ -38,6 +38,9 @@ class Polyline {
   std::vector<double> arc_;
 };
 
+/// Whether the line from a to b crosses that from c to d. Ends that touch do not count.
+bool sides_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
+
 /// Twice the area that a closed line runs about, positive counter-clockwise with x backwards as the
 /// first axis and z as the second [m^2].
 double doubled_area(const std::vector<Vec2>& closed);

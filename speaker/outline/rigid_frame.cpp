@@ -44,7 +44,7 @@ Similarity rigid_motion(const std::vector<Vec2>& from, const std::vector<Vec2>& 
   return s;
 }
 
-std::vector<Vec2> front_of_palate(const std::vector<Vec2>& given) {
+std::vector<Vec2> underside_of_palate(const std::vector<Vec2>& given) {
   if (given.size() < 3) return {};
   std::vector<Vec2> line = given;
   double low = line[0][0], high = low;
@@ -69,11 +69,23 @@ std::vector<Vec2> front_of_palate(const std::vector<Vec2>& given) {
     return most;
   };
   std::vector<Vec2> way = reach(one) > reach(other) ? one : other;
+  // As far as the velum's lower end: the lowest place behind, from where the line turns up again.
+  size_t end = way.size() - 1;
+  double lowest_behind = 1e9;
+  for (size_t k = 0; k < way.size(); ++k)
+    if (way[k][0] > 0.5 * (low + high) && way[k][1] < lowest_behind)
+      lowest_behind = way[k][1], end = k;
+  way.resize(end + 1);
+  return way.size() < 3 ? std::vector<Vec2>{} : way;
+}
+
+std::vector<Vec2> front_of_palate(const std::vector<Vec2>& given) {
+  std::vector<Vec2> way = underside_of_palate(given);
   // Up to the top of the arch, before the line first falls by 2 mm.
   size_t top = 0;
   for (size_t k = 0; k < way.size() && way[k][1] > way[top][1] - 2e-3; ++k)
     if (way[k][1] > way[top][1]) top = k;
-  way.resize(top + 1);
+  way.resize(way.empty() ? 0 : top + 1);
   return way.size() < 3 ? std::vector<Vec2>{} : way;
 }
 

@@ -5,8 +5,12 @@
 
 namespace genio {
 
-/// The midsagittal line of a palate from the incisors' lower edge backwards to the arch's top, from
-/// any line along it that faces the model; empty where it has no such part.
+/// The side of a palate's midsagittal line that the tongue can touch, from the incisors' lower edge
+/// backwards to the lower end of the velum (or of what follows), from any line along it that faces
+/// the model; empty where it has no such part.
+std::vector<Vec2> underside_of_palate(const std::vector<Vec2>& line);
+
+/// Its part up to the arch's top.
 std::vector<Vec2> front_of_palate(const std::vector<Vec2>& line);
 
 /// The rigid motion closest to taking each place to its partner (Procrustes; the scale that they

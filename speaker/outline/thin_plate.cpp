@@ -21,9 +21,8 @@ ThinPlateMap::ThinPlateMap(const std::vector<PlacePair>& pairs, double smoothing
   std::vector<Vec2> to;
   for (const PlacePair& p : pairs) {
     const Vec2 place = (p.from - centre_) / size_;
-    if (std::none_of(places_.begin(), places_.end(), [&](const Vec2& q) {
-          return (q - place).norm() < same_place_of_pairs;
-        }))
+    if (std::none_of(places_.begin(), places_.end(),
+                     [&](const Vec2& q) { return (q - place).norm() < same_place_of_pairs; }))
       places_.push_back(place), to.push_back(p.to);
   }
   const Eigen::Index n = Eigen::Index(places_.size());

@@ -31,9 +31,10 @@ class ThinPlateMap {
  private:
   Vec2 centre_ = Vec2::Zero();
   double size_ = 1;
-  std::vector<Vec2> places_;                          ///< in units of the size, about the centre
-  Eigen::Matrix2Xd weights_;                          ///< a column a place [m]
-  Eigen::Matrix<double, 2, 3> affine_ = (Eigen::Matrix<double, 2, 3>() << 0, 1, 0, 0, 0, 1).finished();
+  std::vector<Vec2> places_;  ///< in units of the size, about the centre
+  Eigen::Matrix2Xd weights_;  ///< a column a place [m]
+  Eigen::Matrix<double, 2, 3> affine_ =
+      (Eigen::Matrix<double, 2, 3>() << 0, 1, 0, 0, 0, 1).finished();
 };
 
 /// The smallest determinant of the map's derivative at the places: below 0 it folds there.

@@ -41,8 +41,8 @@ TongueLandmarks tongue_landmarks(const SpeakerOutline& outline) {
   }
   // The floor ends at the foremost of what lies low. Above it the line turns back sharply where it
   // leaves the mandible for the floor of the mouth.
-  marks.genial = where_largest(0, 0.5 * line.length(),
-                               [&](double s) { return line.at(s).dot(Vec2(-1, -1)); });
+  marks.genial =
+      where_largest(0, 0.5 * line.length(), [&](double s) { return line.at(s).dot(Vec2(-1, -1)); });
   const double middle = 0.75 * line.length();
   const double tip = foremost(line, marks.genial + 2 * corner_way, middle);
   marks.floor = where_largest(marks.genial + 1.5 * corner_way, tip - corner_way,

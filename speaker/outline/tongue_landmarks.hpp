@@ -6,9 +6,9 @@ namespace genio {
 
 /// The places on a tongue's line that all tongues have, as arc lengths from its first point [m].
 struct TongueLandmarks {
-  double hyoid = 0;      ///< where the floor begins
-  double genial = 0;     ///< where the floor meets the mandible
-  double floor = 0;      ///< where the mandible ends and the floor of the mouth begins
+  double hyoid = 0;   ///< where the floor begins
+  double genial = 0;  ///< where the floor meets the mandible
+  double floor = 0;   ///< where the mandible ends and the floor of the mouth begins
   double tip = 0;
   double vallecula = 0;  ///< the end
 };

@@ -33,11 +33,12 @@ Json speaker_row(const BenchOptions& o, const ModelDescription& base, const std:
                  std::vector<OutlineDrawing>& drawings, const Progress& progress) {
   Json row = {{"speaker", speaker}};
   Adaptation a;
-  row["seconds"] =
-      seconds([&] { a = adapt_model(base, o.model, read_outline(o.data, speaker)); });
+  row["seconds"] = seconds([&] { a = adapt_model(base, o.model, read_outline(o.data, speaker)); });
   row["rms_mm"] = 1e3 * a.distances.rms, row["max_mm"] = 1e3 * a.distances.most;
-  row["free_rms_mm"] = 1e3 * a.distances.free_rms, row["floor_rms_mm"] = 1e3 * a.distances.floor_rms;
+  row["free_rms_mm"] = 1e3 * a.distances.free_rms,
+  row["floor_rms_mm"] = 1e3 * a.distances.floor_rms;
   row["palate_rms_mm"] = 1e3 * a.palate_rms;
+  row["rest_overlap_mm"] = 1e3 * a.rest_overlap;
   row["min_jacobian"] = a.min_jacobian, row["volume_cm3"] = 1e6 * a.volume;
   row["scale"] = a.scale, row["max_force_scale"] = a.max_force_scale;
   row["repaired_elements"] = a.repaired, row["valid"] = bool(a);

@@ -1,7 +1,8 @@
 // A model becomes another speaker's: close to the outline, whole, and its own mirror image.
 
-#include "forward/anatomy/import_grenoble.hpp"
 #include "speaker/adaptation/adapt.hpp"
+
+#include "forward/anatomy/import_grenoble.hpp"
 #include "speaker/adaptation/outline_of_model.hpp"
 #include "speaker/adaptation/surface_registration.hpp"
 #include "tests/forward/small_model.hpp"
@@ -38,8 +39,9 @@ bool is_its_mirror_image(const HexMesh& base, const HexMesh& mesh) {
 
 TEST(Adaptation, ToItsOwnOutlineLeavesAModelAsItIs) {
   const ModelDescription base = generic_tongue();
-  const Adaptation a = adapt_model(
-      base, "generic", outline_of_model(base, [](const Vec2& p) { return p; }, 1e-3));
+  const Adaptation a = adapt_model(base, "generic",
+                                   outline_of_model(
+                                       base, [](const Vec2& p) { return p; }, 1e-3));
   ASSERT_TRUE(a) << a.message;
   EXPECT_LT(1e3 * a.distances.rms, 0.1);
   EXPECT_LT(1e3 * rms_between(a.model.mesh, base.mesh), 0.2);
@@ -48,11 +50,13 @@ TEST(Adaptation, ToItsOwnOutlineLeavesAModelAsItIs) {
 
 TEST(Adaptation, UndoesAKnownSmoothMap) {
   const ModelDescription base = generic_tongue();
-  const Adaptation there = adapt_model(base, "generic", outline_of_model(base, other_speaker, 1e-3));
+  const Adaptation there =
+      adapt_model(base, "generic", outline_of_model(base, other_speaker, 1e-3));
   ASSERT_TRUE(there) << there.message;
   EXPECT_LT(1e3 * there.distances.rms, 0.5);
-  const Adaptation back = adapt_model(
-      there.model, "other", outline_of_model(base, [](const Vec2& p) { return p; }, 1e-3));
+  const Adaptation back = adapt_model(there.model, "other",
+                                      outline_of_model(
+                                          base, [](const Vec2& p) { return p; }, 1e-3));
   ASSERT_TRUE(back) << back.message;
   EXPECT_LT(1e3 * back.distances.rms, 0.3);
   EXPECT_LT(1e3 * rms_between(back.model.mesh, base.mesh), 0.5);

@@ -1,9 +1,10 @@
 // The energy that keeps elements from folding: its derivatives, and that it does.
 
+#include "speaker/elastic/fold_free.hpp"
+
 #include "forward/geometry/box_mesh.hpp"
-#include "speaker/adaptation/corner_shape.hpp"
-#include "speaker/adaptation/fold_free.hpp"
 #include "speaker/adaptation/solid_registration.hpp"
+#include "speaker/elastic/corner_shape.hpp"
 #include "tests/forward/small_model.hpp"
 #include "tests/speaker/shapes.hpp"
 

@@ -1,9 +1,9 @@
 // Outlines are read as their columns say, turned where that is certain, and refused with a reason.
 
+#include "speaker/adaptation/outline_of_model.hpp"
 #include "speaker/outline/outline_checks.hpp"
 #include "speaker/outline/outline_facing.hpp"
 #include "speaker/outline/rigid_frame.hpp"
-#include "speaker/adaptation/outline_of_model.hpp"
 #include "tests/forward/small_model.hpp"
 #include "tests/speaker/shapes.hpp"
 

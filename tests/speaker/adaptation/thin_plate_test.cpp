@@ -1,6 +1,7 @@
 // The smooth map of the plane meets its pairs, keeps affine maps, and knows its derivative.
 
 #include "speaker/outline/thin_plate.hpp"
+
 #include "tests/speaker/shapes.hpp"
 
 namespace genio {

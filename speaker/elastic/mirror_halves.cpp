@@ -1,4 +1,4 @@
-#include "speaker/adaptation/mirror_halves.hpp"
+#include "speaker/elastic/mirror_halves.hpp"
 
 #include <algorithm>
 #include <map>

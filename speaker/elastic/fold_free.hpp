@@ -14,7 +14,7 @@ namespace genio {
 struct Pull {
   std::array<int, 4> nodes = {-1, -1, -1, -1};  ///< -1: none
   std::array<double, 4> weights = {0, 0, 0, 0};
-  Vec3 goal = Vec3::Zero();   ///< [m]
+  Vec3 goal = Vec3::Zero();    ///< [m]
   Mat3 metric = Mat3::Zero();  ///< [J/m^2]
 };
 
@@ -27,16 +27,16 @@ CornerShapes corner_shapes(const HexMesh& mesh);
 
 /// What is minimised.
 struct FoldFreeProblem {
-  const HexMesh* mesh;                 ///< its elements count, not its places
-  CornerShapes shapes;                 ///< one an element
-  std::vector<double> volumes;         ///< weights of the elements [m^3]
-  double stiffness = 1;                ///< of a corner's energy [J/m^3]
+  const HexMesh* mesh;          ///< its elements count, not its places
+  CornerShapes shapes;          ///< one an element
+  std::vector<double> volumes;  ///< weights of the elements [m^3]
+  double stiffness = 1;         ///< of a corner's energy [J/m^3]
   /// Cost of corners that are much smaller than the mean of their element's: squares of
   /// max(0, wanted / (smallness) - 1), by volume [J/m^3]; 0: none.
   double quality = 0;
   double wanted = 0.35;
   std::vector<Pull> pulls = {};
-  std::vector<Support> supports;       ///< free, fixed or held along axes
+  std::vector<Support> supports;  ///< free, fixed or held along axes
 };
 
 struct FoldFreeOptions {

@@ -24,8 +24,8 @@ EdgeEnds corner_edge(int c, int k);
 /// another.
 struct CornerEnergy {
   double value;
-  Mat3 gradient;                  ///< by F
-  std::array<Mat3, 9> direction;  ///< eigenvectors of the Hessian by F
+  Mat3 gradient;                    ///< by F
+  std::array<Mat3, 9> direction;    ///< eigenvectors of the Hessian by F
   std::array<double, 9> stiffness;  ///< eigenvalues, negative ones as 0 (Smith et al. 2019)
 };
 

@@ -1,4 +1,4 @@
-#include "speaker/adaptation/fold_free.hpp"
+#include "speaker/elastic/fold_free.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "forward/algebra/cholesky.hpp"
-#include "speaker/adaptation/corner_shape.hpp"
+#include "speaker/elastic/corner_shape.hpp"
 
 namespace genio {
 namespace {
@@ -127,8 +127,7 @@ double assemble(const FoldFreeProblem& p, const Positions& x, Vector& gradient, 
     const auto& nodes = p.mesh->elements[e];
     for (int i = 0; i < 8; ++i) {
       gradient.segment<3>(3 * nodes[i]) += t.gradient.segment<3>(3 * i);
-      for (int j = 0; j <= i; ++j)
-        k.add(nodes[i], nodes[j], t.stiffness.block<3, 3>(3 * i, 3 * j));
+      for (int j = 0; j <= i; ++j) k.add(nodes[i], nodes[j], t.stiffness.block<3, 3>(3 * i, 3 * j));
     }
   }
   for (const Pull& pull : p.pulls) {

@@ -1,4 +1,4 @@
-#include "speaker/adaptation/corner_shape.hpp"
+#include "speaker/elastic/corner_shape.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>
