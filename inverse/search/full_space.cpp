@@ -162,8 +162,12 @@ class FullSpace final : public NonlinearProgram {
 bool FullSpace::evaluate(const Vector& v) {
   if (at_.size() == v.size() && at_ == v) return good_;
   at_ = v;
-  x_ = shape(v);
   p_ = apply_unknowns(unknowns_, unknowns(v), base_);
+  try {
+    x_ = shape(v);
+  } catch (const InputError&) {  // an anatomy that nobody can have
+    return good_ = false;
+  }
   good_ = std::isfinite(energy(model_, x_, p_));
   if (good_) residuals_ = comparison_(x_, head_pose(unknowns_, unknowns(v)));
   return good_;
