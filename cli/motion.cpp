@@ -8,6 +8,7 @@
 #include "cli/option_sets/changed_model.hpp"
 #include "cli/result_json.hpp"
 #include "forward/base/elapsed.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/motion/dynamics.hpp"
 #include "report/answers/motion_report.hpp"
 #include "runs/process/progress_line.hpp"

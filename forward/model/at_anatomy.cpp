@@ -12,10 +12,7 @@ namespace {
 constexpr size_t most_shapes = 6;    // some 5 MB each
 constexpr double tells_less = 1e-9;  // of the most that nodes held by bones tell of a mode
 
-/// What of nodal displacements no unknown can follow.
-Vector held_part(const DofMap& dofs, const Vector& field) {
-  return field - dofs.expand(dofs.pick(field));
-}
+Vector held_part(const DofMap& dofs, const Vector& field) { return field - followed(dofs, field); }
 
 /// The nodal fields of all modes, a column each.
 Matrix fields_of(const Model& model) {
@@ -77,6 +74,11 @@ int mode_named(const Model& model, const std::string& name) {
   for (size_t k = 0; k < modes.size(); ++k)
     if (modes[k].name == name) return int(k);
   return -1;
+}
+
+Vector followed(const DofMap& dofs, const Vector& field) {
+  const Vector nodes = dofs.reduce(Vector::Ones(field.size()));
+  return dofs.expand(dofs.reduce(field).cwiseQuotient(nodes));
 }
 
 Vector held_by_mode(const Model& model, int mode) {

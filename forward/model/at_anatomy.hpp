@@ -32,6 +32,10 @@ std::shared_ptr<const Model> at_anatomy(const Model& model, const Parameters& p)
 /// The model at the anatomy that its file states.
 std::shared_ptr<const Model> at_anatomy(const Model& model);
 
+/// The part of nodal displacements that the unknowns can follow; nodes that move as one body follow
+/// their mean, so that a symmetric field has a symmetric part.
+Vector followed(const DofMap& dofs, const Vector& field);
+
 /// How far each parameter moves what no unknown can move, by the node: dx/dp at fixed unknowns
 /// (3 n x count [m per unit]). It is zero but for modes of anatomy, which move the bones.
 Matrix held_motion(const Model& model, std::span<const int> parameters);

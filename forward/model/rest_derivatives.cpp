@@ -9,7 +9,7 @@
 namespace genio {
 namespace {
 
-constexpr double step = 1e-2;  // [sd]; tests/forward/anatomy_modes_test.cpp has the V over it
+constexpr double step = 1e-2;  // [sd]
 
 std::vector<double> values_of_modes(const Model& model, const Parameters& p) {
   if (!model.anatomy.empty()) return model.anatomy.front().values(p);
@@ -63,7 +63,7 @@ Matrix force_by_modes(const Model& model, const Positions& x, const Parameters& 
       beside[size_t(modes[c])] += steps * step;
       column += weight / (12 * step) * remade.force(beside, x + steps * step * field);
     }
-    column += k.multiply(model.dofs.expand(model.dofs.pick(field)));
+    column += k.multiply(followed(model.dofs, field));
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/target/moved_target.hpp"
 
 namespace genio {
