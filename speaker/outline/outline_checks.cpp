@@ -19,9 +19,9 @@ constexpr double widest_opening = 0.05;                           // at the hyoi
 constexpr double deepest_crossing = 3e-3;  // of real contours and a palate at closures [m]
 
 void check_crossings(const SpeakerOutline& o) {
-  std::vector<Vec2> line = o.tongue();
-  const size_t sides = line.size() - (o.free_surface_only ? 1 : 0);
-  line.push_back(line.front());
+  // What closes the line about the hyoid is free: a vallecula hooks behind the straight way there.
+  const std::vector<Vec2>& line = o.tongue();
+  const size_t sides = line.size() - 1;
   for (size_t i = 0; i < sides; ++i)
     for (size_t k = i + 2; k < sides; ++k)
       if (sides_cross(line[i], line[i + 1], line[k], line[k + 1]))

@@ -2,7 +2,8 @@
 
 #include "speaker/elastic/fold_free.hpp"
 
-#include "forward/geometry/box_mesh.hpp"
+#include <Eigen/Geometry>
+
 #include "speaker/adaptation/solid_registration.hpp"
 #include "speaker/elastic/corner_shape.hpp"
 #include "tests/forward/small_model.hpp"
