@@ -1,5 +1,6 @@
 // genio-make-modes OUTLINES OUT: how the speakers of a file of outlines vary.
-// data/anatomy/outline_modes.csv is its output for the 41 speakers that data/anatomy/README.md names.
+// data/anatomy/outline_modes.csv is its output for the 41 speakers that data/anatomy/README.md
+// names.
 #include <cstdio>
 #include <exception>
 

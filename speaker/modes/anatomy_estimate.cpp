@@ -13,10 +13,10 @@
 namespace genio {
 namespace {
 
-constexpr double line_step = 3e-3, shortest_sight = 0.02;           // [m]
-constexpr double shift_sd = 0.05, turn_sd = std::numbers::pi / 6;   // [m], [rad]
+constexpr double line_step = 3e-3, shortest_sight = 0.02;          // [m]
+constexpr double shift_sd = 0.05, turn_sd = std::numbers::pi / 6;  // [m], [rad]
 constexpr int most_passes = 30, pose_unknowns = 3;
-constexpr double settled_pass = 1e-4;  // of any unknown, in its standard deviations
+constexpr double settled_pass = 1e-4;             // of any unknown, in its standard deviations
 constexpr std::array turns = {0.0, -0.35, 0.35};  // to start from [rad]
 
 Eigen::Matrix2d rotation(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
@@ -65,10 +65,10 @@ class Estimator {
       e.places.push_back(placed(i));
       const Matrix j = derivative(i);
       const Eigen::Matrix2d own = own_variance(i);
-      e.sd.segment<2>(2 * i) = ((j * covariance * j.transpose()).diagonal() + own.diagonal())
-                                   .cwiseSqrt();
+      e.sd.segment<2>(2 * i) =
+          ((j * covariance * j.transpose()).diagonal() + own.diagonal()).cwiseSqrt();
     }
-    e.rms = rms_;
+    e.rms = rms_, e.cost = cost_;
     return e;
   }
 
@@ -130,8 +130,8 @@ class Estimator {
     if (sight_.points)
       for (size_t i = 0; i < sight_.points->places.size(); ++i)
         if (sight_.points->known[i])
-          result.push_back({sight_.points->places[i], Vec2::Zero(), int(i), int(i), 0,
-                            sight_.point_noise});
+          result.push_back(
+              {sight_.points->places[i], Vec2::Zero(), int(i), int(i), 0, sight_.point_noise});
     for (bool palate : {true, false}) {
       const int first = outline_stretch(palate ? "palate" : "mouth_floor").first;
       const OutlineStretch& last = outline_stretch(palate ? "palate" : "surface");
@@ -146,8 +146,8 @@ class Estimator {
         const auto k = size_t(std::clamp<std::ptrdiff_t>(above - line.arc().begin() - 1, 0,
                                                          std::ptrdiff_t(points.size()) - 2));
         const double part = (foot.s - line.arc()[k]) / (line.arc()[k + 1] - line.arc()[k]);
-        result.push_back({s.place, line.tangent(foot.s), first + int(k), first + int(k) + 1, part,
-                          s.noise});
+        result.push_back(
+            {s.place, line.tangent(foot.s), first + int(k), first + int(k) + 1, part, s.noise});
       }
     }
     return result;

@@ -26,8 +26,8 @@ double radius(const std::vector<Vec2>& places) {
 
 std::vector<NamedField> mode_fields(const OutlineModes& modes, const ModelDescription& model,
                                     const std::string& source) {
-  SpeakerOutline outline =
-      outline_of_model(model, [](const Vec2& p) { return p; }, outline_spacing);
+  SpeakerOutline outline = outline_of_model(
+      model, [](const Vec2& p) { return p; }, outline_spacing);
   outline.source = source;
   const OutlinePoints own = outline_points(outline);
   std::vector<Vec2> mean, ours;
@@ -46,8 +46,7 @@ std::vector<NamedField> mode_fields(const OutlineModes& modes, const ModelDescri
       pairs.push_back({ours[i], ours[i] + turn * modes.modes.col(k).segment<2>(2 * which[i])});
     const auto map = std::make_shared<const ThinPlateMap>(pairs, bending);
     // Of lengths on average, by the affine map nearest to the pairs.
-    const double wider =
-        0.5 * (affine_map(pairs).derivative(ours.front()).trace() - 2);
+    const double wider = 0.5 * (affine_map(pairs).derivative(ours.front()).trace() - 2);
     fields.push_back({modes.names[size_t(k)], [map, wider](const Vec3& x) -> Vec3 {
                         const Vec2 p(x[0], x[2]), to = (*map)(p);
                         return {to[0] - p[0], wider * x[1], to[1] - p[1]};

@@ -43,13 +43,15 @@ std::vector<std::string> modes_in(const std::vector<std::string>& header, const 
                                   int row) {
   for (size_t k = 0; k < first_columns.size(); ++k)
     if (k >= header.size() || header[k] != first_columns[k])
-      fail_at(path, row, fmt::format("expected the column {} as number {}", first_columns[k], k + 1));
+      fail_at(path, row,
+              fmt::format("expected the column {} as number {}", first_columns[k], k + 1));
   std::vector<std::string> names;
   for (size_t k = first_columns.size(); k + 1 < header.size(); k += 2) {
     const std::string name = header[k].substr(0, header[k].rfind("_x_mm"));
     if (header[k] != name + "_x_mm" || header[k + 1] != name + "_z_mm")
-      fail_at(path, row, fmt::format("column {}: expected MODE_x_mm and MODE_z_mm in pairs",
-                                     in_quotes(header[k])));
+      fail_at(path, row,
+              fmt::format("column {}: expected MODE_x_mm and MODE_z_mm in pairs",
+                          in_quotes(header[k])));
     names.push_back(name);
   }
   if (names.empty()) fail_at(path, row, "expected the columns of a mode or more");
@@ -84,8 +86,9 @@ OutlineModes read_outline_modes(const std::string& path) {
     if (stretch == outline_stretches().size()) fail_at(path, row, "a point too many");
     const OutlineStretch& s = outline_stretches()[stretch];
     if (fields.size() != first_columns.size() + 2 * names.size())
-      fail_at(path, row, fmt::format("{} fields; expected {}", fields.size(),
-                                     first_columns.size() + 2 * names.size()));
+      fail_at(path, row,
+              fmt::format("{} fields; expected {}", fields.size(),
+                          first_columns.size() + 2 * names.size()));
     if (fields[0] != s.name || fields[1] != std::to_string(point))
       fail_at(path, row, fmt::format("expected point {} of {}", point, s.name));
     for (int axis = 0; axis < 2; ++axis) {
@@ -101,8 +104,8 @@ OutlineModes read_outline_modes(const std::string& path) {
     if (++point == s.count) ++stretch, point = 0;
   }
   if (names.empty() || stretch < outline_stretches().size())
-    throw InputError(fmt::format("{}: it ends early; expected {} points", path,
-                                 outline_point_count()));
+    throw InputError(
+        fmt::format("{}: it ends early; expected {} points", path, outline_point_count()));
   if (!(modes.kept >= 0 && modes.kept <= 1) || modes.speakers < 2)
     throw InputError(path + ": expected a first line \"# kept K, speakers N\"");
   for (const std::string& name : names)
@@ -117,9 +120,8 @@ void write_outline_modes(const OutlineModes& modes, const std::string& origin,
   std::string header;
   for (const std::string& column : first_columns) header += (header.empty() ? "" : ",") + column;
   for (Eigen::Index k = 0; k < modes.modes.cols(); ++k) {
-    const std::string name = k < modes.named()
-                                 ? modes.names[size_t(k)]
-                                 : minor_mode + std::to_string(k - modes.named() + 1);
+    const std::string name = k < modes.named() ? modes.names[size_t(k)]
+                                               : minor_mode + std::to_string(k - modes.named() + 1);
     header += fmt::format(",{0}_x_mm,{0}_z_mm", name);
   }
   out << header << "\n";

@@ -41,16 +41,15 @@ struct Measure {
 /// What guides the first modes, as phoneticians measure heads.
 std::vector<Measure> measures() {
   const int edge = point_of("palate", 0), arch = point_of("palate", 1);
-  return {{"size", distance_from_middle},
-          {"palate_height", [=](const Vector& x) { return upwards(x, edge, arch); }},
-          {"pharynx_length",
-           [=](const Vector& x) { return upwards(x, point_of("hyoid", 0), arch); }},
-          {"jaw_height",
-           [=](const Vector& x) { return upwards(x, edge, point_of("mandible", 0)); }},
-          {"tongue_length", [](const Vector& x) { return length_of(x, "surface"); }},
-          {"pharynx_depth", [](const Vector& x) {
-             return place(x, point_of("pharynx", 0.4))[0] - place(x, point_of("surface", 0.8))[0];
-           }}};
+  return {
+      {"size", distance_from_middle},
+      {"palate_height", [=](const Vector& x) { return upwards(x, edge, arch); }},
+      {"pharynx_length", [=](const Vector& x) { return upwards(x, point_of("hyoid", 0), arch); }},
+      {"jaw_height", [=](const Vector& x) { return upwards(x, edge, point_of("mandible", 0)); }},
+      {"tongue_length", [](const Vector& x) { return length_of(x, "surface"); }},
+      {"pharynx_depth", [](const Vector& x) {
+         return place(x, point_of("pharynx", 0.4))[0] - place(x, point_of("surface", 0.8))[0];
+       }}};
 }
 
 /// What of a column no other column of an orthonormal set tells, at unit variance.

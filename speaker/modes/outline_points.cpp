@@ -14,9 +14,13 @@ const std::vector<std::string> tongue_stretches = {"floor", "mandible", "mouth_f
 std::vector<OutlineStretch> laid_out() {
   std::vector<OutlineStretch> all;
   int first = 0;
-  for (const auto& [name, count] :
-       {std::pair{"floor", 12}, {"mandible", 6}, {"mouth_floor", 10}, {"surface", 31},
-        {"palate", 13}, {"hyoid", 1}, {"pharynx", 9}})
+  for (const auto& [name, count] : {std::pair{"floor", 12},
+                                    {"mandible", 6},
+                                    {"mouth_floor", 10},
+                                    {"surface", 31},
+                                    {"palate", 13},
+                                    {"hyoid", 1},
+                                    {"pharynx", 9}})
     all.push_back({name, first, count}), first += count;
   return all;
 }

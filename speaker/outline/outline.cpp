@@ -198,4 +198,13 @@ void read_outline_palate(const std::string& path, SpeakerOutline& outline) {
   throw InputError(fmt::format("{}: no segment palate of two points or more", path));
 }
 
+std::vector<std::vector<Vec2>> read_outline_lines(const std::string& path) {
+  const OutlineRows rows(path, "", false);
+  std::vector<std::vector<Vec2>> lines;
+  for (const auto& [name, points] : rows.by_name())
+    if (points.size() > 1) lines.push_back(points);
+  if (lines.empty()) throw InputError(fmt::format("{}: no line of two points or more", path));
+  return lines;
+}
+
 }  // namespace genio

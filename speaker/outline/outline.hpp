@@ -49,4 +49,7 @@ std::vector<std::string> outline_speakers(const std::string& path);
 /// the outline's own. A file without the column segment is one line, the palate.
 void read_outline_palate(const std::string& path, SpeakerOutline& outline);
 
+/// All lines of such a file, whatever their names; of a file without the column segment the one.
+std::vector<std::vector<Vec2>> read_outline_lines(const std::string& path);
+
 }  // namespace genio

@@ -76,7 +76,8 @@ double rms_of(const std::vector<Vec2>& places, const OutlinePoints& truth,
 
 Json sparse_figures(const BenchOptions& o, const Progress& progress) {
   const ModelDescription model = read_description(o.model);
-  SpeakerOutline own = outline_of_model(model, [](const Vec2& p) { return p; }, 1e-3);
+  SpeakerOutline own = outline_of_model(
+      model, [](const Vec2& p) { return p; }, 1e-3);
   const OutlinePoints generic = outline_points(own);
   std::vector<OutlinePoints> all;
   for (const std::string& speaker : outline_speakers(o.data))
@@ -104,12 +105,15 @@ Json sparse_figures(const BenchOptions& o, const Progress& progress) {
     ours.push_back(rms_of(e.places, all[k], shared));
     scaled.push_back(rms_of(scaled_onto(generic, all[k]), all[k], shared));
     nearer += ours.back() < scaled.back();
-    rows.push_back({{"rms_mm", 1e3 * ours.back()}, {"scaled_rms_mm", 1e3 * scaled.back()},
-                    {"held", double(here) / (2.0 * double(hidden.size()))}, {"fit_rms_mm", 1e3 * e.rms},
+    rows.push_back({{"rms_mm", 1e3 * ours.back()},
+                    {"scaled_rms_mm", 1e3 * scaled.back()},
+                    {"held", double(here) / (2.0 * double(hidden.size()))},
+                    {"fit_rms_mm", 1e3 * e.rms},
                     {"kept", modes.kept}});
-    progress(fmt::format("speaker {:>2}: {:.1f} mm, scaled model {:.1f} mm; {:.0f} % within; seen {:.2f} mm",
-                         k + 1, 1e3 * ours.back(), 1e3 * scaled.back(),
-                         100.0 * here / (2.0 * double(hidden.size())), 1e3 * e.rms));
+    progress(fmt::format(
+        "speaker {:>2}: {:.1f} mm, scaled model {:.1f} mm; {:.0f} % within; seen {:.2f} mm", k + 1,
+        1e3 * ours.back(), 1e3 * scaled.back(), 100.0 * here / (2.0 * double(hidden.size())),
+        1e3 * e.rms));
   }
   return {{"speakers", all.size()},
           {"sparse_coverage90", double(held) / counted},
