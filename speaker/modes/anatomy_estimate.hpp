@@ -35,9 +35,9 @@ struct AnatomyEstimate {
 
 /// The mode of the posterior and its Gaussian approximation. The modes are independent normal
 /// before the data; where the head was is hardly known (5 cm, 30 degrees), and found from several
-/// turns. Lines count every 3 mm by their distance across the outline. Throws InputError where they
-/// are too short to tell where the head was: less than 2 cm in all, or less than a palate and a
-/// tongue where no point is known.
+/// turns. Lines count every 10 mm by their distance across the outline. Throws InputError where
+/// they are too short to tell where the head was: less than 2 cm in all, or less than a palate and
+/// a tongue where no point is known.
 AnatomyEstimate estimate_anatomy(const OutlineModes& modes, const SpeakerSight& sight);
 
 }  // namespace genio

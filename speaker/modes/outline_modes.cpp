@@ -31,6 +31,14 @@ double length_of(const Vector& x, const char* stretch) {
     sum += (place(x, s.first + k) - place(x, s.first + k - 1)).norm();
   return sum;
 }
+/// How high the palate rises above the incisors.
+double arch_height(const Vector& x) {
+  const OutlineStretch& s = outline_stretch("palate");
+  double most = 0;
+  for (int k = 1; k < s.count; ++k)
+    most = std::max(most, x[2 * (s.first + k) + 1] - x[2 * s.first + 1]);
+  return most;
+}
 double upwards(const Vector& x, int from, int to) { return place(x, to)[1] - place(x, from)[1]; }
 
 struct Measure {
@@ -40,10 +48,10 @@ struct Measure {
 
 /// What guides the first modes, as phoneticians measure heads.
 std::vector<Measure> measures() {
-  const int edge = point_of("palate", 0), arch = point_of("palate", 1);
+  const int edge = point_of("palate", 0), arch = point_of("palate", 0.7);
   return {
       {"size", distance_from_middle},
-      {"palate_height", [=](const Vector& x) { return upwards(x, edge, arch); }},
+      {"palate_height", arch_height},
       {"pharynx_length", [=](const Vector& x) { return upwards(x, point_of("hyoid", 0), arch); }},
       {"jaw_height", [=](const Vector& x) { return upwards(x, edge, point_of("mandible", 0)); }},
       {"tongue_length", [](const Vector& x) { return length_of(x, "surface"); }},

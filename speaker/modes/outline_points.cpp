@@ -9,6 +9,7 @@
 namespace genio {
 namespace {
 
+constexpr double palate_step = 3.5e-3;  // from the incisors' edge on [m]
 const std::vector<std::string> tongue_stretches = {"floor", "mandible", "mouth_floor", "surface"};
 
 std::vector<OutlineStretch> laid_out() {
@@ -34,6 +35,16 @@ void fill(const Polyline& line, double from, double to, bool closed, const Outli
     points.places[size_t(s.first + k)] = line.at(from + part * (to - from));
     points.known[size_t(s.first + k)] = true;
   }
+}
+
+/// Places at fixed lengths from the incisors: where a flat arch has its top is chance.
+void fill_palate(const std::vector<Vec2>& underside, OutlinePoints& points) {
+  if (underside.empty()) return;
+  const Polyline line(underside);
+  const OutlineStretch& s = outline_stretch("palate");
+  for (int k = 0; k < s.count && k * palate_step <= line.length(); ++k)
+    points.places[size_t(s.first + k)] = line.at(k * palate_step),
+                                   points.known[size_t(s.first + k)] = true;
 }
 
 }  // namespace
@@ -66,10 +77,7 @@ OutlinePoints outline_points(const SpeakerOutline& outline) {
     fill(line, marks.genial, marks.floor, false, outline_stretch("mandible"), points);
   }
   if (outline.has(Segment::palate))
-    if (const auto front = front_of_palate(outline.segments.at(Segment::palate)); !front.empty()) {
-      const Polyline palate(front);
-      fill(palate, 0, palate.length(), true, outline_stretch("palate"), points);
-    }
+    fill_palate(underside_of_palate(outline.segments.at(Segment::palate)), points);
   if (outline.has(Segment::hyoid)) {
     const auto& hyoid = outline.segments.at(Segment::hyoid);
     const auto at = size_t(outline_stretch("hyoid").first);
