@@ -86,10 +86,23 @@ std::vector<Vec2> inner_side_of_mandible(const SpeakerOutline& outline) {
   return side;
 }
 
-std::vector<Vec2> cut_samples(const std::optional<TriangleSurface>& surface) {
-  if (!surface) return {};
+/// Places of a bone's cut that face the tongue: no part of the cut stands before them. What lies
+/// behind a bone goes with its front.
+std::vector<Vec2> facing_samples(const std::optional<TriangleSurface>& surface,
+                                 const Polyline& tongue) {
+  std::vector<Vec2> facing;
+  if (!surface) return facing;
   const auto cuts = midsagittal_cut(*surface);
-  return cuts.empty() ? std::vector<Vec2>{} : samples_of(cuts.front());
+  if (cuts.empty()) return facing;
+  for (const Vec2& p : samples_of(cuts.front())) {
+    const Vec2 foot = tongue.foot(p).place, before = p + 0.1 * (foot - p);
+    bool free_way = true;
+    for (const auto& cut : cuts)
+      for (size_t k = 1; k < cut.size(); ++k)
+        free_way &= !sides_cross(before, foot, cut[k - 1], cut[k]);
+    if (free_way) facing.push_back(p);
+  }
+  return facing;
 }
 
 }  // namespace
@@ -117,17 +130,25 @@ CarriedBones carry_bones(const ModelDescription& model, const ModelLine& line, c
     }
   }
   std::vector<BoneGoals> goals;
-  BoneGoals palate{cut_samples(model.palate), {}, near_palate};
+  BoneGoals palate{facing_samples(model.palate, from), {}, near_palate};
   if (outline.has(Segment::palate))
     if (const auto side = underside_of_palate(outline.segments.at(Segment::palate)); !side.empty())
       palate.lines.emplace_back(side);
   if (outline.has(Segment::pharynx))
     palate.lines.emplace_back(outline.segments.at(Segment::pharynx));
-  BoneGoals jaw{cut_samples(model.jaw), {}, near_jaw};
+  BoneGoals jaw{facing_samples(model.jaw, from), {}, near_jaw};
   if (outline.has(Segment::mandible) && !outline.free_surface_only)
     jaw.lines.emplace_back(inner_side_of_mandible(outline));
   CarriedBones carried;
   carried.map = ThinPlateMap(tongue, bone_smoothing);
+  // The incisors' edge, an end of both lines, is a place that they share.
+  if (!palate.lines.empty() && outline.has(Segment::palate) && model.palate) {
+    const auto theirs = underside_of_palate(outline.segments.at(Segment::palate));
+    const auto cuts = midsagittal_cut(*model.palate);
+    const auto ours = cuts.empty() ? std::vector<Vec2>{} : underside_of_palate(cuts.front());
+    if (!theirs.empty() && !ours.empty())
+      tongue.push_back({ours.front(), clear_of(section, to, theirs.front())});
+  }
   for (int round = 0; round < bone_rounds; ++round) {
     std::vector<PlacePair> pairs = tongue;
     for (const BoneGoals* g : {&palate, &jaw}) g->add(carried.map, section, to, pairs);
