@@ -27,9 +27,10 @@ void add_anatomy(Json& j, const std::map<std::string, double>& values) {
 
 }  // namespace
 
-std::string info_json(const Model& m, double smallest_corner_jacobian_ratio) {
+std::string info_json(const Model& m, double smallest_corner_jacobian_ratio,
+                      const ModelOrigin& origin) {
   Json j;
-  j["name"] = m.name;
+  j["name"] = m.name, j["provenance"] = origin.provenance, j["sha256"] = origin.hashes;
   j["nodes"] = m.mesh.nodes.size(), j["elements"] = m.mesh.elements.size();
   j["volume_cm3"] = 1e6 * mesh_volume(m.mesh, m.rest);
   j["min_corner_jacobian_ratio"] = smallest_corner_jacobian_ratio;

@@ -41,7 +41,13 @@ struct MotionResult {
   std::optional<End> end;
 };
 
-std::string info_json(const Model& model, double smallest_corner_jacobian_ratio);
+/// Where a model comes from.
+struct ModelOrigin {
+  std::string provenance;                     ///< as its file states it
+  std::map<std::string, std::string> hashes;  ///< SHA-256 of its files by their names
+};
+std::string info_json(const Model& model, double smallest_corner_jacobian_ratio,
+                      const ModelOrigin& origin);
 std::string statics_json(const StaticsResult& result);
 std::string motion_json(const MotionResult& result);
 /// `indent` -1: on one line.

@@ -39,9 +39,9 @@ AnatomyEstimate estimate_from_files(const OutlineModes& modes, const SightFiles&
   const AnatomyEstimate turned = estimate_anatomy(modes, mirrored_sight(sight));
   if (turned.cost < here.cost - far_better)
     throw InputError(fmt::format(
-        "{}: the lines fit a face that looks the other way far better ({:.1f} of {:.1f} mm RMS); "
-        "expected x to point backwards",
-        files.contours, turned.rms * 1e3, here.rms * 1e3));
+        "{}: palate and tongue are far more like those of a face that looks the other way (by {:.0f} "
+        "log odds); expected x to point backwards",
+        files.contours, here.cost - turned.cost));
   return here;
 }
 
