@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct LandmarkShift {
 };
 
 std::vector<LandmarkShift> landmark_shifts(const Model& model, const Positions& x);
+
+/// Says of what anatomy's rest displacements are, where the model has modes that are not 0.
+void print_anatomy(const std::map<std::string, double>& values);
 
 void print_landmarks(const std::vector<LandmarkShift>& landmarks);
 

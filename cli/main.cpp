@@ -10,6 +10,7 @@
 #include "cli/service/key.hpp"
 #include "cli/service/request.hpp"
 #include "cli/service/serve.hpp"
+#include "cli/speaker/adapt.hpp"
 #include "cli/speaker/surface.hpp"
 #include "cli/subcommands/bench.hpp"
 #include "cli/subcommands/corpus.hpp"
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
          {"corpus", "Every recording of a table, here or on a cluster", add_corpus},
          {"discover", "What a model misses, from measured shapes under several conditions",
           add_discover},
+         {"adapt", "A model that becomes a given speaker's", add_adapt},
          {"surface", "A bone's surface from slices, a label volume or a finer surface",
           add_surface},
          {"indent", "Tissue constants from an indentation experiment", add_indent},

@@ -8,6 +8,7 @@
 #include "cli/option_sets/changed_model.hpp"
 #include "cli/result_json.hpp"
 #include "forward/base/elapsed.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/motion/dynamics.hpp"
 #include "report/answers/motion_report.hpp"
 #include "runs/process/progress_line.hpp"
@@ -41,6 +42,7 @@ void print_motion(const MotionResult& r, int iterations, int factorizations) {
   const StaticsResult::Shape& shape = r.end->shape;
   fmt::print("{} steps, {:.0f} ms of motion in {:.2f} s ({} iterations, {} factorisations)\n",
              r.steps, 1e3 * r.simulated_s, r.wall_s, iterations, factorizations);
+  print_anatomy(r.anatomy);
   print_landmarks(shape.landmarks);
   fmt::print("  tip's rise time {:.1f} ms, volume {:+.3f} %, deepest contact {:.3f} mm\n",
              1e3 * r.end->rise_time_s, shape.volume_change_percent, shape.max_penetration_mm);
@@ -90,6 +92,7 @@ int run_motion(const Model& m, const SimulationOptions& o, const std::string& ou
                       .newton_iterations = start.newton_iterations + t.newton_iterations,
                       .factorizations = start.factorizations + t.factorizations,
                       .wall_s = watch.seconds(),
+                      .anatomy = anatomy_values(m, rest),
                       .end = {}};
   if (t) result.end = end_of(m, t);
   if (!out.empty() && !t.instants.empty()) write_motion(m, t, out);

@@ -21,11 +21,16 @@ void add_shape(Json& j, const StaticsResult::Shape& shape) {
   }
 }
 
+void add_anatomy(Json& j, const std::map<std::string, double>& values) {
+  for (const auto& [mode, value] : values) j["anatomy"][mode] = value;
+}
+
 }  // namespace
 
-std::string info_json(const Model& m, double smallest_corner_jacobian_ratio) {
+std::string info_json(const Model& m, double smallest_corner_jacobian_ratio,
+                      const ModelOrigin& origin) {
   Json j;
-  j["name"] = m.name;
+  j["name"] = m.name, j["provenance"] = origin.provenance, j["sha256"] = origin.hashes;
   j["nodes"] = m.mesh.nodes.size(), j["elements"] = m.mesh.elements.size();
   j["volume_cm3"] = 1e6 * mesh_volume(m.mesh, m.rest);
   j["min_corner_jacobian_ratio"] = smallest_corner_jacobian_ratio;
@@ -50,6 +55,7 @@ std::string statics_json(const StaticsResult& r) {
   j["status"] = r.shape ? "converged" : "failed", j["message"] = r.message;
   j["newton_iterations"] = r.newton_iterations, j["factorizations"] = r.factorizations;
   j["wall_s"] = r.wall_s;
+  add_anatomy(j, r.anatomy);
   if (r.shape) add_shape(j, *r.shape);
   return j.dump();
 }
@@ -61,6 +67,7 @@ std::string motion_json(const MotionResult& r) {
   j["simulated_s"] = r.simulated_s;
   j["newton_iterations"] = r.newton_iterations, j["factorizations"] = r.factorizations;
   j["wall_s"] = r.wall_s;
+  add_anatomy(j, r.anatomy);
   j["realtime_factor"] = r.simulated_s > 0 ? r.wall_s / r.simulated_s : 0;
   if (r.end) {
     add_shape(j, r.end->shape);

@@ -1,6 +1,7 @@
 #pragma once
 // What subcommands print for programs, each one JSON object.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct StaticsResult {
   std::string message;
   int newton_iterations, factorizations;
   double wall_s;
+  std::map<std::string, double> anatomy;  ///< modes' values [sd]; displacements are from its rest
   std::optional<Shape> shape;
 };
 
@@ -35,10 +37,17 @@ struct MotionResult {
   double simulated_s;
   int newton_iterations, factorizations;
   double wall_s;
+  std::map<std::string, double> anatomy;  ///< as of an equilibrium
   std::optional<End> end;
 };
 
-std::string info_json(const Model& model, double smallest_corner_jacobian_ratio);
+/// Where a model comes from.
+struct ModelOrigin {
+  std::string provenance;                     ///< as its file states it
+  std::map<std::string, std::string> hashes;  ///< SHA-256 of its files by their names
+};
+std::string info_json(const Model& model, double smallest_corner_jacobian_ratio,
+                      const ModelOrigin& origin);
 std::string statics_json(const StaticsResult& result);
 std::string motion_json(const MotionResult& result);
 /// `indent` -1: on one line.

@@ -12,19 +12,29 @@
 
 namespace genio::cli {
 
-std::string default_model() {
+namespace {
+
+/// A file of data/ as installed or in the source tree.
+std::string data_file(const std::string& name) {
   namespace fs = std::filesystem;
-  if (const char* given = std::getenv("GENIO_MODEL")) return given;
   std::error_code none;
   const fs::path self = fs::read_symlink("/proc/self/exe", none);
   // Beside an installed program, in a source tree above its build folder, or where one stands.
-  const fs::path installed = self.parent_path() / "../share/genio/generic/model.toml";
+  const fs::path installed = self.parent_path() / "../share/genio" / name;
   if (fs::exists(installed)) return installed.lexically_normal().string();
   for (fs::path up = self.parent_path(); up.has_relative_path(); up = up.parent_path())
-    if (fs::exists(up / "data/generic/model.toml"))
-      return (up / "data/generic/model.toml").string();
-  return "data/generic/model.toml";
+    if (fs::exists(up / "data" / name)) return (up / "data" / name).string();
+  return "data/" + name;
 }
+
+}  // namespace
+
+std::string default_model() {
+  if (const char* given = std::getenv("GENIO_MODEL")) return given;
+  return data_file("generic/model.toml");
+}
+
+std::string default_modes() { return data_file("anatomy/outline_modes.csv"); }
 
 std::pair<std::string, double> parse_assignment(const std::string& option,
                                                 const std::string& text) {

@@ -6,6 +6,8 @@ namespace genio::cli {
 
 /// The generic model as installed or in the source tree.
 std::string default_model();
+/// How speakers' outlines vary, beside it.
+std::string default_modes();
 
 /// Splits "NAME=VALUE"; throws InputError naming `option`.
 std::pair<std::string, double> parse_assignment(const std::string& option, const std::string& text);

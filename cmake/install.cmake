@@ -14,7 +14,7 @@ install(FILES ${PROJECT_BINARY_DIR}/cli/genio.bash RENAME genio
 install(TARGETS genio-bench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
 install(TARGETS genio_messages EXPORT genioTargets)
 install(EXPORT genioTargets NAMESPACE genio:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/genio)
-install(DIRECTORY data/generic DESTINATION ${CMAKE_INSTALL_DATADIR}/genio)
+install(DIRECTORY data/generic data/anatomy DESTINATION ${CMAKE_INSTALL_DATADIR}/genio)
 configure_package_config_file(cmake/genioConfig.cmake.in ${PROJECT_BINARY_DIR}/genioConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/genio)
 install(FILES ${PROJECT_BINARY_DIR}/genioConfig.cmake cmake/dependencies.cmake

@@ -23,6 +23,7 @@
 #include "bench/figures/inverse/reach.hpp"
 #include "bench/figures/service/service.hpp"
 #include "bench/figures/speaker/indent.hpp"
+#include "bench/figures/speaker/speaker.hpp"
 #include "forward/base/types.hpp"
 
 namespace genio::bench {
@@ -44,7 +45,7 @@ const std::vector<Benchmark>& benchmarks() {
       inverse_bench(),    calibration_bench(), reach_bench(),      peer_bench(),
       gesture_bench(),    discover_bench(),    service_bench(),    recordings_bench(),
       corpus_bench(),     ultrasound_bench(),  grenoble_bench(),   grenoble_gravity_bench(),
-      seed_suite_bench(), indent_bench()};
+      seed_suite_bench(), indent_bench(),      speaker_bench()};
   return all;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/support.hpp"
 #include "forward/base/elapsed.hpp"
 #include "forward/base/text_file.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "report/answers/motion_report.hpp"
@@ -39,6 +40,7 @@ int run_suite(const ForwardOptions& o) {
 void print_statics(const StaticsResult& r) {
   fmt::print("equilibrium in {} Newton steps, {} factorisations, {:.2f} s\n", r.newton_iterations,
              r.factorizations, r.wall_s);
+  print_anatomy(r.anatomy);
   print_landmarks(r.shape->landmarks);
   fmt::print("  volume {:+.3f} %, deepest contact {:.3f} mm\n", r.shape->volume_change_percent,
              r.shape->max_penetration_mm);
@@ -54,6 +56,7 @@ int run_statics(const Model& m, const ForwardOptions& o) {
                        .newton_iterations = e.newton_iterations,
                        .factorizations = e.factorizations,
                        .wall_s = watch.seconds(),
+                       .anatomy = anatomy_values(m, p),
                        .shape = {}};
   if (e)
     result.shape = StaticsResult::Shape{
@@ -73,7 +76,9 @@ int run_statics(const Model& m, const ForwardOptions& o) {
 
 int run(const ForwardOptions& o) {
   if (!o.suite.empty()) return run_suite(o);
-  const Model m = changed_model(o.model, o.changes);
+  const Model changed = changed_model(o.model, o.changes);
+  const auto here = at_anatomy(changed);  // displacements are from the rest of that anatomy
+  const Model& m = *here;
   if (!o.dynamic) return run_statics(m, o);
   return run_motion(m, o.motion, o.out, o.json);
 }

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
     write_prior(folder + "/prior");
     write_manifest(folder);
     write_observations(tongue, folder + "/discover");
+    write_outline(tongue, folder + "/adapt");
   } catch (const std::exception& e) {
     std::fprintf(stderr, "genio-make-example: %s\n", e.what());
     return 1;

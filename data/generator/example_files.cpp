@@ -16,6 +16,7 @@
 #include "forward/motion/motion_sensitivity.hpp"
 #include "forward/statics/equilibrium.hpp"
 #include "inverse/target/tongue_line.hpp"
+#include "speaker/adaptation/outline_of_model.hpp"
 
 namespace genio {
 namespace {
@@ -192,6 +193,22 @@ void write_observations(const ModelDescription& tongue, const std::string& folde
         "\n[[condition]]\nname = \"{0}\"\ntarget = \"{0}.csv\"\nforces_N = {{ {1} }}\n"
         "heldout = {2}\n",
         name, known, name == "between");
+  }
+}
+
+void write_outline(const ModelDescription& tongue, const std::string& folder) {
+  const auto smaller = [](const Vec2& p) {
+    const double rise = 2.5e-3 * std::exp(-std::pow((p[0] - 0.095) / 0.02, 2));
+    const Vec2 q(0.93 * p[0], 0.95 * p[1] + rise);
+    return Vec2(0.02 + std::cos(0.1) * q[0] - std::sin(0.1) * q[1],
+                std::sin(0.1) * q[0] + std::cos(0.1) * q[1] - 0.04);
+  };
+  auto out = created(folder, "outline.csv");
+  out.print("segment,point,x_mm,y_mm\n");
+  for (const auto& [segment, points] : outline_of_model(tongue, smaller, 1.5e-3).segments) {
+    int number = 0;
+    for (const Vec2& p : points)
+      out.print("{},{},{:.2f},{:.2f}\n", segment_name(segment), ++number, 1e3 * p[0], 1e3 * p[1]);
   }
 }
 

@@ -39,5 +39,8 @@ void write_manifest(const std::string& folder);
 /// FOLDER/observations.toml and its targets: five postures of a tongue of eight times the elements
 /// under an airway pressure that the model does not have, with 0.4 mm of noise.
 void write_observations(const ModelDescription& tongue, const std::string& folder);
+/// FOLDER/outline.csv: the midsagittal outline of a smaller tongue with a higher dorsum, looking
+/// the way of the model, in a frame of its own.
+void write_outline(const ModelDescription& tongue, const std::string& folder);
 
 }  // namespace genio

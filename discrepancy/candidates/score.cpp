@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/model/at_anatomy.hpp"
+#include "forward/model/rest_derivatives.hpp"
 #include "inverse/posterior/box_gaussian.hpp"
 #include "inverse/posterior/distributions.hpp"
+#include "inverse/target/comparison.hpp"
 
 namespace genio {
 namespace {
@@ -69,6 +72,13 @@ ScaledStep best_step(const Matrix& information, const Vector& slope,
 Forces forces_by(const Hypothesis& h, const FreeNumber& strength, const Model& model,
                  const FittedCondition& c) {
   Forces df = Forces::Zero(c.x.size());
+  if (h.made.modes) {
+    for (const std::string& key : strength.keys) {
+      const int k[] = {mode_named(model, key)};
+      df += force_by_modes(model, c.x, c.parameters, k).col(0);
+    }
+    return df;
+  }
   if (find_effect(model, h.effect)) {  // others may read its parameters too: a jaw that touches
     for (const std::string& key : strength.keys) {
       const int k[] = {parameter_index(model, ParameterName{h.effect, key})};
@@ -87,6 +97,16 @@ Forces forces_by(const Hypothesis& h, const FreeNumber& strength, const Model& m
     for (size_t i = 0; i < info.size(); ++i)
       if (info[i].name == key) potential.add_force_derivative(c.x, values, int(i), df);
   return df;
+}
+
+/// What the residuals see of nodes that go with a bone, besides the forces.
+Vector seen_of_bones(const Hypothesis& h, const FreeNumber& strength, const Model& model,
+                     const FittedCondition& c) {
+  Vector held = Vector::Zero(c.x.size());
+  if (h.made.modes)
+    for (const std::string& key : strength.keys)
+      held += held_by_mode(model, mode_named(model, key));
+  return residual_jacobian(c.residuals, held);
 }
 
 }  // namespace
@@ -160,8 +180,10 @@ Matrix signature(const Candidate& candidate, const ConditionSet& set, const Join
       continue;
     }
     for (Eigen::Index s = 0; s < count; ++s)
-      block.col(s) = influences[k] * forces_by(*candidate.hypothesis,
-                                               candidate.strengths[size_t(s)], set.model(k), c);
+      block.col(s) =
+          influences[k] *
+              forces_by(*candidate.hypothesis, candidate.strengths[size_t(s)], set.model(k), c) +
+          seen_of_bones(*candidate.hypothesis, candidate.strengths[size_t(s)], set.model(k), c);
   }
   return result;
 }

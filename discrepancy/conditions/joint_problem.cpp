@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "forward/model/at_anatomy.hpp"
+
 namespace genio {
 namespace {
 
@@ -65,7 +67,7 @@ InferOptions starting(const ConditionSet& set, size_t k, const FitOptions& fit) 
   if (fit.start) {
     // What is held here may have moved under the model that the start is from: an open jaw.
     const Model& m = set.model(k);
-    options.start_shape = m.rest + m.dofs.expand(m.dofs.pick((*fit.start)[k].x - m.rest));
+    options.start_shape = carried(m, (*fit.start)[k].x, default_parameters(m));
     options.start_factorizations = start_factorizations;
   }
   return options;

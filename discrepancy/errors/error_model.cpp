@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "forward/geometry/hex8.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/model/half_model.hpp"
 #include "inverse/target/comparison.hpp"
 
@@ -68,10 +69,11 @@ Matrix noise_covariance(const Target& target, const Residuals& r, double length)
 Matrix fibre_influence(const Model& model, const FittedCondition& c, const Matrix& influence) {
   const Forces f = forces_of(model, c.x, c.parameters, [](const Effect& e) { return e.commands; });
   Stiffness k(model.pattern);
-  for (const auto& e : model.potentials)
+  const auto here = at_anatomy(model, c.parameters);
+  for (const auto& e : here->potentials)
     if (model.effects[size_t(e.effect)].commands) e->add_stiffness(c.x, e.values(c.parameters), k);
   const Matrix turned = k.multiply_columns(influence.transpose());  // 3 n x rows
-  const auto gradients = nodal_gradients(model.mesh);
+  const auto gradients = nodal_gradients(here->mesh);
   Matrix result = Matrix::Zero(influence.rows(), influence.cols());
   for (size_t a = 0; a < gradients.size(); ++a) {
     const auto at = 3 * Eigen::Index(a);

@@ -47,8 +47,11 @@ Parameters halved(const Model& half, const Model& whole, const Parameters& p) {
 }
 
 ModelDescription geometry(ModelDescription d) {
-  d.effects = {{"elasticity", d.effects.at("elasticity")}};
+  std::erase_if(d.effects, [](const auto& effect) {
+    return effect.first != "elasticity" && effect.first != "anatomy";
+  });
   d.muscles.clear();
+  for (AnatomyMode& mode : d.modes) mode.fixed_points.clear();
   return d;
 }
 

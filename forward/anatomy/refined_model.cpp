@@ -4,6 +4,7 @@
 #include <set>
 
 #include "forward/anatomy/refine.hpp"
+#include "forward/effects/modes/moved_rest.hpp"
 
 namespace genio {
 namespace {
@@ -77,9 +78,8 @@ std::vector<Fibre> denser(const std::vector<Fibre>& fibres, const Middles& middl
   return result;
 }
 
-}  // namespace
-
-ModelDescription refined(const ModelDescription& description) {
+/// The same tongue without regard to its modes.
+ModelDescription split(const ModelDescription& description) {
   ModelDescription d = description;
   const RefinedMesh fine = refined(description.mesh, description.supports);
   const Middles middle(fine);
@@ -90,6 +90,24 @@ ModelDescription refined(const ModelDescription& description) {
     for (int e : muscle.elements)
       for (int c = 0; c < 8; ++c) children.push_back(8 * e + c);
     muscle.elements = std::move(children);
+  }
+  return d;
+}
+
+}  // namespace
+
+ModelDescription refined(const ModelDescription& description) {
+  ModelDescription d = split(description);
+  // New points are means of old ones, so that a mode is what refining moves along with it.
+  for (size_t k = 0; k < d.modes.size(); ++k) {
+    std::vector<double> one(d.modes.size(), 0.0);
+    one[k] = 1;
+    const ModelDescription far = split(moved(description, one));
+    d.modes[k].nodes = far.mesh.nodes;
+    d.modes[k].fixed_points = fixed_points(far.muscles);
+    const auto before = fixed_points(d.muscles);
+    for (size_t a = 0; a < d.mesh.nodes.size(); ++a) d.modes[k].nodes[a] -= d.mesh.nodes[a];
+    for (size_t i = 0; i < before.size(); ++i) d.modes[k].fixed_points[i] -= before[i];
   }
   return d;
 }

@@ -16,6 +16,10 @@ struct Anatomy {
   std::vector<Muscle> muscles;    ///< with segments
   std::vector<Support> supports;  ///< as the effects present want them
   NodeMatrix mass;                ///< of the tissue
+  /// The model as it stands, where this is its rest configuration moved along modes of anatomy;
+  /// null: this is it. What is chosen by steps, such as the points that may touch a bone, is chosen
+  /// there, so that energies are smooth in the modes' values.
+  const ModelDescription* standing = nullptr;
 };
 
 /// Nodes that are held so.

@@ -1,4 +1,7 @@
 #pragma once
+#include <span>
+
+#include "forward/effects/description.hpp"
 #include "forward/effects/potential.hpp"
 
 namespace genio {
@@ -11,6 +14,11 @@ class ContactPotential : public Potential {
   virtual double distance(const Vec3& point) const = 0;
   /// Deepest penetration in the shape `x` beyond the overlap at rest [m], >= 0.
   virtual double max_penetration(const Positions& x, EffectParameters p) const = 0;
+  /// Adds how the force changes while tongue, rest configuration and bone move together along each
+  /// of some modes of anatomy: 3 n x modes [N per standard deviation]. `rest`: the rest
+  /// configuration [m].
+  virtual void add_force_along(const Positions& x, EffectParameters p, const Positions& rest,
+                               std::span<const AnatomyMode* const> modes, Matrix& df) const = 0;
 };
 
 }  // namespace genio

@@ -18,6 +18,20 @@ struct Landmarks {
   int tip = -1, dorsum = -1, root = -1;  ///< node numbers, 0-based
 };
 
+/// One mode of a speaker's anatomy: how far each point of the rest configuration moves for one
+/// standard deviation among speakers [m].
+struct AnatomyMode {
+  std::string name;                      ///< "size", as a parameter of the effect `anatomy`
+  std::vector<Vec3> nodes;               ///< of the mesh
+  std::vector<Vec3> fixed_points;        ///< of the fibres: muscle by muscle, fibre by fibre
+  std::vector<Vec3> palate, jaw, hyoid;  ///< of the surfaces' vertices
+};
+
+/// The displacement of the nodes by one standard deviation of a mode, as 3 n values [m].
+inline Vector nodal_field(const AnatomyMode& mode) {
+  return Eigen::Map<const Vector>(mode.nodes.data()->data(), 3 * Eigen::Index(mode.nodes.size()));
+}
+
 /// What a model folder says, before any effect is built from it.
 struct ModelDescription {
   std::string name;
@@ -28,6 +42,7 @@ struct ModelDescription {
   Landmarks landmarks;
   std::vector<int> midsagittal;
   std::optional<TriangleSurface> palate, jaw, hyoid;
+  std::vector<AnatomyMode> modes;              ///< what the effect `anatomy` moves
   double density = 1040;                       ///< [kg/m^3] (Buchaillard et al. 2009)
   std::map<std::string, EffectTable> effects;  ///< absent table = absent effect
 };

@@ -8,7 +8,8 @@ std::vector<const Term*> Effect::terms() const {
   std::vector<const Term*> result;
   for (const Term* term :
        {static_cast<const Term*>(potential.get()), static_cast<const Term*>(dissipation.get()),
-        static_cast<const Term*>(inertia.get()), static_cast<const Term*>(filter.get())})
+        static_cast<const Term*>(inertia.get()), static_cast<const Term*>(filter.get()),
+        modes.get()})
     if (term) result.push_back(term);
   return result;
 }

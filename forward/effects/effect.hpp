@@ -14,13 +14,15 @@
 
 namespace genio {
 
-/// What an effect adds to a model: to its energy, to its dissipation, to its mass, or between
-/// commands and forces. At least one term is there, and all terms have the effect's name.
+/// What an effect adds to a model: to its energy, to its dissipation, to its mass, between
+/// commands and forces, or to the shape of its rest configuration. At least one term is there, and
+/// all terms have the effect's name.
 struct Effect {
   std::shared_ptr<const Potential> potential = nullptr;
   std::shared_ptr<const Dissipation> dissipation = nullptr;
   std::shared_ptr<const Inertia> inertia = nullptr;
   std::shared_ptr<const CommandFilter> filter = nullptr;
+  std::shared_ptr<const Term> modes = nullptr;
   /// Force of potential and dissipation at once, where they can share work.
   std::shared_ptr<const JointForces> joint = nullptr;
   /// The potential as a contact, where it is one.

@@ -2,6 +2,7 @@
 
 #include "forward/effects/bones/hyoid_mobility.hpp"
 #include "forward/effects/bones/jaw_opening.hpp"
+#include "forward/effects/modes/anatomy_modes.hpp"
 #include "forward/effects/muscles/activation_dynamics.hpp"
 #include "forward/effects/muscles/extra_muscle.hpp"
 #include "forward/effects/muscles/force_length.hpp"
@@ -46,6 +47,7 @@ const std::vector<EffectKind>& effect_kinds() {
       hyoid_mobility_kind(),
       airway_pressure_kind(),
       viscosity_kind(),
+      anatomy_kind(),
   };
   // clang-format on
   return all;

@@ -31,6 +31,18 @@ std::vector<int> right_half(const HexMesh& mesh, const std::string& source, HexM
   return number;
 }
 
+void keep_modes(const ModelDescription& whole, const std::vector<int>& number,
+                const std::vector<size_t>& points, ModelDescription& half) {
+  for (size_t k = 0; k < whole.modes.size(); ++k) {
+    const AnatomyMode& of_whole = whole.modes[k];
+    AnatomyMode& mode = half.modes[k];
+    mode.nodes.clear(), mode.fixed_points.clear();
+    for (size_t a = 0; a < number.size(); ++a)
+      if (number[a] >= 0) mode.nodes.push_back(of_whole.nodes[a]);
+    for (const size_t i : points) mode.fixed_points.push_back(of_whole.fixed_points[i]);
+  }
+}
+
 }  // namespace
 
 ModelDescription half_of(const ModelDescription& whole, const std::string& source) {
@@ -62,24 +74,31 @@ ModelDescription half_of(const ModelDescription& whole, const std::string& sourc
     d.supports.push_back(s);
   }
   d.muscles.clear();
+  std::vector<size_t> kept_points;  // of the fixed points of fibres
+  size_t points = 0;
   for (const Muscle& m : whole.muscles) {
     Muscle half{m.name, m.max_force, {}, {}, {}};
     if (bilateral_name(m.name) == m.name) half.max_force *= 0.5;
+    const bool left = m.name.ends_with("_L");
     for (const Fibre& fibre : m.fibres) {
       Fibre kept = fibre;
+      const size_t first = points;
+      for (const FibrePoint& p : fibre) points += p.node < 0;
       const bool right = std::all_of(kept.begin(), kept.end(), [&](FibrePoint& p) {
         if (p.node < 0) return p.anchor[1] > -on_plane;
         return (p.node = number[size_t(p.node)]) >= 0;
       });
-      if (right) half.fibres.push_back(std::move(kept));
+      if (!right || left) continue;
+      half.fibres.push_back(std::move(kept));
+      for (size_t i = first; i < points; ++i) kept_points.push_back(i);
     }
     for (int e : m.elements)
       if (element[size_t(e)] >= 0) half.elements.push_back(element[size_t(e)]);
-    const bool left = m.name.ends_with("_L");
-    if (!half.fibres.empty() && !left) d.muscles.push_back(std::move(half));
+    if (!half.fibres.empty()) d.muscles.push_back(std::move(half));
     if (left)  // what is said of it in other effects goes with it
       for (auto& [name, table] : d.effects) table.erase(m.name);
   }
+  keep_modes(whole, number, kept_points, d);
   for (int* landmark : {&d.landmarks.tip, &d.landmarks.dorsum, &d.landmarks.root})
     *landmark = number[size_t(*landmark)];
   for (int& a : d.midsagittal) a = number[size_t(a)];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "forward/model/build_effects.hpp"
+#include "forward/model/build_model.hpp"
 #include "forward/model/effect_kinds.hpp"
 
 namespace genio {
@@ -118,15 +119,13 @@ ModelDescription with_mobile_supports(ModelDescription d) {
 
 std::vector<Hypothesis> hypotheses(const ModelDescription& d) {
   const std::string source = d.name;
-  std::vector<Muscle> muscles = d.muscles;
-  for (Muscle& m : muscles) m.segments = share_by_volume(d.mesh, m.fibres, m.elements);
-  const NodeMatrix mass = tissue_mass(d.mesh, d.density);
+  Anatomy anatomy = anatomy_of(d, source);
   std::vector<Hypothesis> result;
   for (const EffectKind& kind : effect_kinds()) {
     if (d.effects.contains(kind.name) && kind.places) continue;
     ModelDescription with = d;
     with.effects.try_emplace(kind.name);
-    const Anatomy anatomy{d, source, muscles, supports_for(with), mass};
+    anatomy.supports = supports_for(with);
     const auto places = kind.places ? kind.places(d) : std::vector<Place>{{}};
     for (const Place& place : places) add(d, kind, place, anatomy, result);
   }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "forward/effects/surroundings/contact.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/half_model.hpp"
 #include "forward/model/sums.hpp"
@@ -54,7 +55,7 @@ bool symmetric(const Vector& f, const std::vector<int>& partner, double toleranc
 
 /// A symmetric shape near rest that strains everything.
 Positions trial_shape(const Model& m) {
-  Positions x = m.rest;
+  Positions x = at_anatomy(m)->rest;
   for (size_t a = 0; a < m.mesh.nodes.size(); ++a) {
     const Vec3& r = m.mesh.nodes[a];
     const double s = std::sin(90 * r[0] + 50 * r[2]), c = std::cos(70 * r[2] - 30 * r[0]);
@@ -78,7 +79,9 @@ Forces force_of_tongue(const Model& m, const Positions& x, const Parameters& p) 
 }
 
 /// What the tongue may touch is the same on both sides.
-bool symmetric_surfaces(const Model& m) {
+bool symmetric_surfaces(const Model& given) {
+  const auto here = at_anatomy(given);
+  const Model& m = *here;
   for (const auto& contact : m.contacts)
     for (const Quad& q : m.surface)
       for (int a : q)
@@ -133,7 +136,7 @@ Matrix Mirror::right_half(const Matrix& of_whole) const {
 }
 
 std::unique_ptr<const Mirror> mirror_of(const Model& m, const std::vector<std::string>& names) {
-  if (!m.description) return nullptr;
+  if (!m.description || m.is_moved) return nullptr;
   const std::vector<int> partner = partners(m.mesh);
   if (partner.empty()) return nullptr;
   const Positions x = trial_shape(m);

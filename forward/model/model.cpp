@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "forward/base/nearest_name.hpp"
+#include "forward/model/at_anatomy.hpp"
 
 namespace genio {
 
@@ -100,6 +101,7 @@ Model::Model(ModelParts from)
       hyoid(std::move(from.hyoid)),
       effects(std::move(from.effects)),
       tissue_mass(from.tissue_mass),
+      is_moved(from.is_moved),
       rest(rest_positions(mesh)),
       surface(boundary_quads(mesh)),
       dofs(supports),
@@ -110,12 +112,14 @@ Model::Model(ModelParts from)
       inertias(placed(effects, parameters, &Effect::inertia)),
       filters(placed(effects, parameters, &Effect::filter)),
       contacts(placed(effects, parameters, &Effect::contact)),
-      pattern(pattern_of(mesh, effects)),
+      anatomy(placed(effects, parameters, &Effect::modes)),
+      shapes(anatomy.empty() || is_moved ? nullptr : std::make_shared<AnatomyShapes>()),
+      pattern(from.pattern ? from.pattern : pattern_of(mesh, effects)),
       batches(std::make_shared<const std::vector<ElementBatch>>(element_batches(mesh))) {}
 
 ModelParts Model::parts() const {
-  return {name,        description, mesh, supports, muscles, landmarks,
-          midsagittal, palate,      jaw,  hyoid,    effects, tissue_mass};
+  return {name,   description, mesh,  supports, muscles,     landmarks, midsagittal,
+          palate, jaw,         hyoid, effects,  tissue_mass, is_moved};
 }
 
 Parameters default_parameters(const Model& model) {

@@ -20,6 +20,8 @@
 
 namespace genio {
 
+class AnatomyShapes;
+
 /// A parameter and where it lives.
 struct ParameterSlot {
   int effect;  ///< index into Model::effects
@@ -44,6 +46,10 @@ struct ModelParts {
   std::optional<TriangleSurface> palate, jaw, hyoid;
   std::vector<Effect> effects;
   NodeMatrix tissue_mass;  ///< [kg]; empty where there are no dynamics
+  /// True where its rest configuration is moved along the modes of anatomy already.
+  bool is_moved = false;
+  /// Of a model that couples the same nodes, to share; null: made anew.
+  std::shared_ptr<const BlockPattern> pattern = nullptr;
 };
 
 /// A tongue, assembled once and then constant: a changed model is a new one, made from changed
@@ -62,6 +68,7 @@ struct Model {
   const std::optional<TriangleSurface> palate, jaw, hyoid;
   const std::vector<Effect> effects;
   const NodeMatrix tissue_mass;
+  const bool is_moved;
 
   // Derived:
   const Positions rest;             ///< [m]
@@ -75,6 +82,9 @@ struct Model {
   const std::vector<Placed<Inertia>> inertias;
   const std::vector<Placed<CommandFilter>> filters;      ///< commands pass them one after another
   const std::vector<Placed<ContactPotential>> contacts;  ///< among the potentials
+  const std::vector<Placed<Term>> anatomy;               ///< the values of its modes; one at most
+  /// Its rest configurations at other anatomies, see at_anatomy(); null without modes to move it.
+  const std::shared_ptr<AnatomyShapes> shapes;
   /// Which node pairs couple. Workspaces share it, so that they cannot outlive it.
   const std::shared_ptr<const BlockPattern> pattern;
   /// The elements, batch by batch; shared for the same reason.

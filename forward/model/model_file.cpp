@@ -11,6 +11,7 @@
 #include "forward/base/printed_text.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/base/toml_reader.hpp"
+#include "forward/effects/modes/mode_files.hpp"
 #include "forward/geometry/vtk_io.hpp"
 #include "forward/model/build_effects.hpp"
 
@@ -71,12 +72,14 @@ void read_mesh(const std::string& path, ModelDescription& d) {
   for (size_t c = 0; c < data.cells.size(); ++c)
     for (size_t m = 0; m < d.muscles.size(); ++m)
       if (uint64_t(mask.values[c]) >> m & 1) d.muscles[m].elements.push_back(int(c));
+  read_mesh_modes(data, path, d);
 }
 
 void read_fibres(const std::string& path, ModelDescription& d) {
   const VtkData data = read_vtk(path);
   const auto& node = need(data.point_data, "node", path);
   const auto& muscle = need(data.cell_data, "muscle", path);
+  std::vector<std::vector<int>> fixed(d.muscles.size());
   for (size_t c = 0; c < data.cells.size(); ++c) {
     const double m = muscle.values[c];
     if (!(m >= 0) || m >= double(d.muscles.size()))
@@ -91,6 +94,7 @@ void read_fibres(const std::string& path, ModelDescription& d) {
                         "to {}",
                         path, p, n, d.mesh.nodes.size() - 1));
       fibre.push_back({int(n), data.points[p]});
+      if (n < 0) fixed[size_t(m)].push_back(p);
     }
     if (fibre.size() < 2)
       throw InputError(fmt::format("{}: fibre {} has fewer than 2 points", path, c));
@@ -98,6 +102,10 @@ void read_fibres(const std::string& path, ModelDescription& d) {
   }
   for (const auto& m : d.muscles)
     if (m.fibres.empty()) throw InputError(fmt::format("{}: muscle {} has no fibre", path, m.name));
+  std::vector<int> points;
+  for (const auto& of_muscle : fixed)
+    points.insert(points.end(), of_muscle.begin(), of_muscle.end());
+  read_fibre_modes(data, points, path, d);
 }
 
 void read_muscles(const Reader& r, ModelDescription& d) {
@@ -181,6 +189,7 @@ ModelDescription read_description(const std::string& given) {
          {std::pair{"palate", &d.palate}, {"jaw", &d.jaw}, {"hyoid", &d.hyoid}})
       if (s.contains(key)) *target = bone_surface((folder / r.text(s, key)).string());
   }
+  read_surface_modes((folder / surface_modes_file).string(), d);
   read_effects(r, d);
   return d;
 }
@@ -201,6 +210,7 @@ void write_description(const ModelDescription& d, const std::string& folder_name
   }
   mesh.point_data["support"] = support;
   mesh.cell_data["muscles"] = mask;
+  add_mesh_modes(d, mesh);
   write_vtu((folder / "mesh.vtu").string(), mesh);
 
   VtkData fibres;
@@ -218,7 +228,9 @@ void write_description(const ModelDescription& d, const std::string& folder_name
     }
   fibres.point_data["node"] = node;
   fibres.cell_data["muscle"] = muscle;
+  add_fibre_modes(d, fibres);
   write_vtp_lines((folder / "fibres.vtp").string(), fibres);
+  write_surface_modes((folder / surface_modes_file).string(), d);
 
   PrintedText out;
   out.print(

@@ -10,7 +10,8 @@
 
 namespace genio {
 
-/// Total potential energy [J]; +infinity for inverted tissue.
+/// Total potential energy [J]; +infinity for inverted tissue, also in the rest configuration of the
+/// anatomy that the parameters have. Everything here is that of the model at_anatomy().
 double energy(const Model& model, const Positions& x, const Parameters& p);
 /// Total nodal forces [N].
 Forces force(const Model& model, const Positions& x, const Parameters& p);
@@ -39,7 +40,8 @@ void add_damping(const Model& model, const Positions& x, const Vector& v, const 
                  double scale, Stiffness& scratch, Stiffness& k);
 /// The tissue's and the effects' mass [kg]. Throws InputError for a model without.
 NodeMatrix mass_matrix(const Model& model, const Parameters& p);
-/// dF/dp_k as nodal forces, for each of the given parameters: 3 n x count [N per unit].
+/// dF/dp_k as nodal forces, for each of the given parameters: 3 n x count [N per unit]. Nodes stay
+/// where they are, but what no unknown can move goes with a mode of anatomy, see force_by_modes().
 Matrix force_derivatives(const Model& model, const Positions& x, const Parameters& p,
                          std::span<const int> parameters);
 

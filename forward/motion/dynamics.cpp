@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "forward/algebra/quasi_newton.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/motion/motion_step.hpp"
 
 namespace genio {
@@ -219,15 +220,17 @@ TimeScheme TimeScheme::generalised_alpha(double r) {
   return s;
 }
 
-Trajectory simulate(const Model& model, const CommandsOverTime& commands, const Positions& start,
+Trajectory simulate(const Model& given, const CommandsOverTime& commands, const Positions& start,
                     Workspace& ws, const TimeOptions& options) {
   if (!(options.duration > 0) || !(options.step > 0))
     throw InputError("dynamics: duration and step must be above 0 s");
-  ws.check(model);
+  ws.check(given);
+  const auto here = at_anatomy(given, commands.at(0));
+  const Model& model = *here;
   Trajectory result;
   const int before = ws.cholesky.factorizations();
   const CommandsOverTime pulls = activated(model, commands);
-  Simulation(model, pulls, ws, options).run(start, result);
+  Simulation(model, pulls, ws, options).run(carried(given, start, commands.at(0)), result);
   result.factorizations = ws.cholesky.factorizations() - before;
   return result;
 }

@@ -57,8 +57,9 @@ struct Trajectory {
 
 /// Motion from rest in the shape `start`. Each step is solved by quasi-Newton iterations (BFGS,
 /// Matthies & Strang 1979) on a factor that is renewed only when they get slow, over as many steps
-/// as it will serve.
-Trajectory simulate(const Model& model, const CommandsOverTime& commands, const Positions& start,
+/// as it will serve. The anatomy is that of the first instant; a start of another is carried() to
+/// it.
+Trajectory simulate(const Model& given, const CommandsOverTime& commands, const Positions& start,
                     Workspace& ws, const TimeOptions& options = {});
 
 /// Time from 10 % to 90 % of the way of a node between the first and the last instant [s].

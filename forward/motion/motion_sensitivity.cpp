@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "forward/algebra/gmres.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/statics/sensitivity.hpp"
 
 namespace genio {
@@ -163,16 +164,22 @@ Positions shape_at(const Trajectory& t, double time) {
   return (1 - s) * a.x + s * b.x;
 }
 
-std::vector<Matrix> motion_sensitivity(const Model& model, const Controls& controls,
+std::vector<Matrix> motion_sensitivity(const Model& given, const Controls& controls,
                                        const CommandsOverTime& commands,
                                        const Trajectory& trajectory, const TimeScheme& scheme,
                                        const Matrix& start, const std::vector<double>& when,
                                        Workspace& ws, double accuracy) {
-  if (!model.filters.empty())
-    throw InputError(model.name +
+  if (!given.filters.empty())
+    throw InputError(given.name +
                      ": activation_dynamics lets forces lag behind commands; dynamic "
                      "inversion finds the forces themselves, so leave it out");
-  ws.check(model);
+  for (const auto& combination : controls.combinations)
+    for (const Controls::Share& share : combination)
+      if (mode_of(given, share.parameter) >= 0)
+        throw InputError(given.name + ": a mode of anatomy is no unknown of a movement");
+  ws.check(given);
+  const auto here = at_anatomy(given, commands.at(0));
+  const Model& model = *here;
   const Eigen::Index n = model.rest.size(), count = controls.unknowns();
   State state{Matrix::Zero(n, count), Matrix::Zero(n, count), Matrix::Zero(n, count)};
   if (start.cols() > 0) state.u = start;

@@ -30,8 +30,9 @@ struct Controls {
 /// without columns it does not move. Each step solves J S = right-hand sides with its own tangent
 /// factorised; what viscous forces add through the shape is solved for to `accuracy` (gmres()).
 /// Empty where a tangent is not positive definite or that does not converge. Throws InputError for
-/// models with activation_dynamics, whose forces lag behind the commands.
-std::vector<Matrix> motion_sensitivity(const Model& model, const Controls& controls,
+/// models with activation_dynamics, whose forces lag behind the commands, and for controls that are
+/// modes of anatomy.
+std::vector<Matrix> motion_sensitivity(const Model& given, const Controls& controls,
                                        const CommandsOverTime& commands,
                                        const Trajectory& trajectory, const TimeScheme& scheme,
                                        const Matrix& start, const std::vector<double>& times,

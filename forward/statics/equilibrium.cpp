@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/model/at_anatomy.hpp"
 #include "forward/statics/newton.hpp"
 
 namespace genio {
@@ -178,14 +179,24 @@ Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Pos
     result.message = "a parameter is not finite";
     return result;
   }
-  solve_softly(model, ws, options, result);
-  if (!result && options.max_load_steps > 0) continuation(model, p, ws, options, result);
+  std::shared_ptr<const Model> here;
+  try {
+    here = at_anatomy(model, p);
+  } catch (const InputError& error) {
+    result.message = error.what();
+    return result;
+  }
+  if (model.shapes) result.x = carried(model, start, p);
+  solve_softly(*here, ws, options, result);
+  if (!result && options.max_load_steps > 0) continuation(*here, p, ws, options, result);
   result.factorizations = ws.cholesky.factorizations() - before;
   return result;
 }
 
-Equilibrium solve_small_deformation(const Model& model, const Parameters& p, Workspace& ws) {
-  ws.check(model);
+Equilibrium solve_small_deformation(const Model& given, const Parameters& p, Workspace& ws) {
+  ws.check(given);
+  const auto here = at_anatomy(given, p);
+  const Model& model = *here;
   Equilibrium result;
   result.parameters = p;
   const int before = ws.cholesky.factorizations();

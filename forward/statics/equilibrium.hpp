@@ -58,12 +58,12 @@ struct Equilibrium {
 /// ones are curved (CurvedStep). Where the tangent is indefinite, a stage minimises the potential
 /// plus springs to the shape it began at, weaker from stage to stage. Far from equilibrium contact
 /// is softer at first. Where all this fails from `start`, muscle commands and weight are brought up
-/// from the rest shape in steps.
+/// from the rest shape in steps. A start of another anatomy is carried() to that of p.
 Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Positions& start,
                               Workspace& ws, const SolveOptions& options = {});
 
 /// Small-deformation framework: the displacement that the stiffness of the rest shape gives to the
 /// forces in the rest shape.
-Equilibrium solve_small_deformation(const Model& model, const Parameters& p, Workspace& ws);
+Equilibrium solve_small_deformation(const Model& given, const Parameters& p, Workspace& ws);
 
 }  // namespace genio

@@ -1,12 +1,16 @@
 #include "forward/statics/sensitivity.hpp"
 
+#include "forward/model/at_anatomy.hpp"
+
 namespace genio {
 
 Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
                    std::span<const int> parameters, Workspace& ws) {
-  return sensitivity_to_forces(
+  Matrix result = sensitivity_to_forces(
       model, equilibrium,
       force_derivatives(model, equilibrium.x, equilibrium.parameters, parameters), ws);
+  if (result.size() > 0) result += held_motion(model, parameters);
+  return result;
 }
 
 Matrix sensitivity_to_forces(const Model& model, const Equilibrium& equilibrium, const Matrix& df,

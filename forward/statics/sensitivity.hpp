@@ -12,7 +12,7 @@ Matrix sensitivity(const Model& model, const Equilibrium& equilibrium,
                    std::span<const int> parameters, Workspace& ws);
 
 /// As above for any combinations of parameters, given by their dF/dp as nodal forces, a column
-/// each.
+/// each; without their held_motion().
 Matrix sensitivity_to_forces(const Model& model, const Equilibrium& equilibrium,
                              const Matrix& force_derivatives, Workspace& ws);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "forward/effects/surroundings/contact.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/recording/base/file_axes.hpp"
 #include "inverse/recording/contour_file.hpp"
 #include "inverse/recording/sensor_place.hpp"
@@ -17,13 +18,14 @@ namespace {
 constexpr double too_far = 0.12;  // [m] from the middle of the tongue
 
 bool inside_bone(const Model& model, const Vec3& p) {
-  for (const auto& contact : model.contacts)
+  const auto here = at_anatomy(model);
+  for (const auto& contact : here->contacts)
     if (contact->distance(Vec3(p[0], 0, p[2])) < 0) return true;
   return false;
 }
 
 std::vector<std::pair<int, double>> flesh(const Model& model, const ContourPoint& p) {
-  if (p.kind == "volume") return tissue_point(model.mesh, p.rest);
+  if (p.kind == "volume") return tissue_point(at_anatomy(model)->mesh, p.rest);
   return sensor_place(model, p.kind);
 }
 

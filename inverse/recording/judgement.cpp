@@ -8,6 +8,7 @@
 
 #include "forward/base/median.hpp"
 #include "forward/effects/surroundings/contact.hpp"
+#include "forward/model/at_anatomy.hpp"
 
 namespace genio {
 namespace {
@@ -23,8 +24,9 @@ constexpr double unlike = 3e-3;         // root mean square of a scan from what 
 
 /// The share of points in the model's frame that lie deeper in a bone than that [m].
 double behind(const Model& model, const std::vector<Vec3>& points, double depth) {
+  const auto here = at_anatomy(model);
   const auto beyond = std::count_if(points.begin(), points.end(), [&](const Vec3& p) {
-    return std::any_of(model.contacts.begin(), model.contacts.end(),
+    return std::any_of(here->contacts.begin(), here->contacts.end(),
                        [&](const auto& c) { return c->distance(p) < -depth; });
   });
   return points.empty() ? 0 : double(beyond) / double(points.size());
@@ -75,7 +77,7 @@ Judgement judge(const Model& model, const Registration& r,
               .shift = r.transform.shift,
               .palate_rms = r.palate_rms,
               .off_reach = r.off_reach};
-  const std::vector<Vec2> rest = TongueLine(model).sample(model.rest, 60);
+  const std::vector<Vec2> rest = TongueLine(model).sample(at_anatomy(model)->rest, 60);
   std::vector<double> distances;
   for (const auto& contour : contours)
     distances.push_back(rms_distance(r.transform, contour, rest));
@@ -100,7 +102,7 @@ Judgement judge(const Model& model, const Registration& r,
 Judgement judge_scan(const Model& model, const std::vector<Vec3>& points,
                      const std::optional<ScanRegistration>& r, bool has_palate) {
   const double loose = r && !has_palate ? r->shift_sd : 0;
-  Judgement j{.from_rest = rms_from_surface(facets(model.surface), model.rest, points),
+  Judgement j{.from_rest = rms_from_surface(facets(model.surface), at_anatomy(model)->rest, points),
               .behind_palate = behind(model, points, into_bone + loose)};
   if (r) {
     j.scale = r->pose.scale;

@@ -7,6 +7,7 @@
 
 #include "forward/base/median.hpp"
 #include "forward/base/nearest_name.hpp"
+#include "forward/model/at_anatomy.hpp"
 
 namespace genio {
 namespace {
@@ -20,10 +21,11 @@ constexpr size_t most_frames = 2000;   // that are looked at
 /// Arc lengths of the line's nodes behind the tip [m]; negative on the tongue's underside.
 std::vector<double> arcs(const Model& model) {
   const auto& line = model.midsagittal;
+  const auto here = at_anatomy(model);
+  const std::vector<Vec3>& nodes = here->mesh.nodes;
   std::vector<double> s(line.size(), 0.0);
   for (size_t k = 1; k < line.size(); ++k)
-    s[k] = s[k - 1] +
-           (model.mesh.nodes[size_t(line[k])] - model.mesh.nodes[size_t(line[k - 1])]).norm();
+    s[k] = s[k - 1] + (nodes[size_t(line[k])] - nodes[size_t(line[k - 1])]).norm();
   const auto tip = std::find(line.begin(), line.end(), model.landmarks.tip);
   const double at = tip == line.end() ? 0 : s[size_t(tip - line.begin())];
   for (double& v : s) v -= at;
@@ -121,7 +123,7 @@ double usual_distance(const ContourFile& file, const std::string& a, const std::
 Vec3 at_rest(const Model& model, const std::string& place) {
   Vec3 sum = Vec3::Zero();
   for (const auto& [node, weight] : sensor_place(model, place))
-    sum += weight * model.mesh.nodes[size_t(node)];
+    sum += weight * at_anatomy(model)->mesh.nodes[size_t(node)];
   return sum;
 }
 

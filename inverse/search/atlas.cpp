@@ -61,6 +61,7 @@ bool AtlasMaker::add(const Model& model, const Vector& z, const Positions& start
   Matrix by_unknown =
       sensitivity_to_forces(model, e, force_by_unknown(model, unknowns_, e.x, e.parameters), ws);
   if (by_unknown.size() == 0) return false;
+  by_unknown += held_by_unknown(model, unknowns_, e.parameters);
   atlas_.entries.push_back({z, e.x, std::move(by_unknown)});
   return true;
 }

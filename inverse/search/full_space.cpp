@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/shape/curvature.hpp"
 #include "inverse/shape/objective.hpp"
 #include "inverse/shape/summary.hpp"
@@ -45,11 +46,16 @@ class FullSpace final : public NonlinearProgram {
 
   Vector start(const Positions& x, const Vector& z) const {
     Vector v(free_ + count_);
-    v << model_.dofs.pick(x - model_.rest) / length, z;
+    const auto here = at_anatomy(model_, apply_unknowns(unknowns_, z, base_));
+    const Vector followed_way = followed(model_.dofs, here->rest - model_.rest);
+    v << model_.dofs.pick(x - here->rest + followed_way) / length, z;
     return v;
   }
+  /// Unknowns say where nodes are in space, so that only what is held goes with an anatomy.
   Positions shape(const Vector& v) const {
-    return model_.rest + model_.dofs.expand(length * v.head(free_));
+    const auto here = at_anatomy(model_, apply_unknowns(unknowns_, unknowns(v), base_));
+    return here->rest - followed(model_.dofs, here->rest - model_.rest) +
+           model_.dofs.expand(length * v.head(free_));
   }
   Vector unknowns(const Vector& v) const { return v.tail(count_); }
   WorkClock& clock() { return clock_; }
@@ -66,6 +72,8 @@ class FullSpace final : public NonlinearProgram {
     g.resize(v.size());
     g << length * model_.dofs.reduce(misfit_gradient(residuals_, x_.size())),
         prior_.gradient(unknowns(v)) +
+            held_by_unknown(model_, unknowns_, p_).transpose() *
+                misfit_gradient(residuals_, x_.size()) +
             by_pose_.transpose() * (residuals_.pose.transpose() * residuals_.values);
     return true;
   }
@@ -154,8 +162,12 @@ class FullSpace final : public NonlinearProgram {
 bool FullSpace::evaluate(const Vector& v) {
   if (at_.size() == v.size() && at_ == v) return good_;
   at_ = v;
-  x_ = shape(v);
   p_ = apply_unknowns(unknowns_, unknowns(v), base_);
+  try {
+    x_ = shape(v);
+  } catch (const InputError&) {  // an anatomy that nobody can have
+    return good_ = false;
+  }
   good_ = std::isfinite(energy(model_, x_, p_));
   if (good_) residuals_ = comparison_(x_, head_pose(unknowns_, unknowns(v)));
   return good_;

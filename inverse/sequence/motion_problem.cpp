@@ -128,7 +128,7 @@ std::shared_ptr<LocalProblem> MotionProblem::local_problem(const Vector& u) {
       failure_ = "the motion starts at an unstable equilibrium";
       return nullptr;
     }
-    first.leftCols(n) = by_first;
+    first.leftCols(n) = by_first + held_by_unknown(model_, unknowns_, start_->parameters);
   }
   std::vector<double> times;
   for (const MotionFrame& f : frames_) times.push_back(f.time_s);

@@ -1,5 +1,8 @@
 #include "inverse/shape/curvature.hpp"
 
+#include <algorithm>
+
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/target/comparison.hpp"
 #include "inverse/target/comparison_curvature.hpp"
 #include "inverse/target/head_pose.hpp"
@@ -10,6 +13,44 @@ namespace {
 constexpr double step = 1e-7;  // longest displacement of a node [m]: contact hardens over 5e-5
 constexpr double unknown_step = 1e-6;  // of an unknown: bones move by it while the shape stays
 constexpr double nothing = 1e-12;      // relative, over such a step
+
+/// The nodal fields that unknowns' modes of anatomy make, by what a mode moves: 3 n x count.
+template <class OfMode>
+Matrix by_unknown(const Model& model, const std::vector<Unknown>& unknowns, const Parameters& p,
+                  OfMode of_mode) {
+  Matrix motion = Matrix::Zero(model.rest.size(), Eigen::Index(unknowns.size()));
+  for (size_t c = 0; c < unknowns.size(); ++c)
+    for (size_t i = 0; i < unknowns[c].parameters.size(); ++i) {
+      const int parameter = unknowns[c].parameters[i];
+      if (const int mode = mode_of(model, parameter); mode >= 0)
+        motion.col(Eigen::Index(c)) +=
+            unknowns[c].shares[i] * unknowns[c].slope(p[parameter]) * of_mode(model, mode);
+    }
+  return motion;
+}
+
+Vector field_of_mode(const Model& model, int mode) {
+  return nodal_field(model.description->modes[size_t(mode)]);
+}
+
+/// Unknowns that are no modes, and which of all they are; and which are modes.
+struct PlainUnknowns {
+  std::vector<Unknown> unknowns;
+  std::vector<Eigen::Index> which;
+};
+std::pair<PlainUnknowns, std::vector<Eigen::Index>> without_modes(
+    const Model& model, const std::vector<Unknown>& unknowns) {
+  std::pair<PlainUnknowns, std::vector<Eigen::Index>> result;
+  for (size_t c = 0; c < unknowns.size(); ++c) {
+    const auto& parameters = unknowns[c].parameters;
+    if (std::any_of(parameters.begin(), parameters.end(),
+                    [&](int k) { return mode_of(model, k) >= 0; }))
+      result.second.push_back(Eigen::Index(c));
+    else
+      result.first.unknowns.push_back(unknowns[c]), result.first.which.push_back(Eigen::Index(c));
+  }
+  return result;
+}
 
 /// K at x, times each column.
 Matrix products(const Model& model, const Positions& x, const Parameters& p, const Matrix& columns,
@@ -33,11 +74,23 @@ Matrix force_by_unknown(const Model& model, const std::vector<Unknown>& unknowns
   return pulls;
 }
 
+Matrix held_by_unknown(const Model& model, const std::vector<Unknown>& unknowns,
+                       const Parameters& p) {
+  return by_unknown(model, unknowns, p, held_by_mode);
+}
+
 Matrix pull_changes(const Model& model, const std::vector<Unknown>& unknowns, const Vector& z,
                     const Positions& x, const Parameters& p, const Vector& adjoint) {
+  const Matrix fields = by_unknown(model, unknowns, p, field_of_mode);
+  const auto parts = without_modes(model, unknowns);
+  const PlainUnknowns& plain = parts.first;
   const auto pulls = [&](const Vector& at) -> Vector {
-    return force_by_unknown(model, unknowns, x, apply_unknowns(unknowns, at, p)).transpose() *
-           adjoint;
+    Vector result = Vector::Zero(at.size());
+    result(plain.which) = force_by_unknown(model, plain.unknowns, x + fields * (at - z),
+                                           apply_unknowns(unknowns, at, p))
+                              .transpose() *
+                          adjoint;
+    return result;
   };
   const Eigen::Index n = z.size();
   Matrix changes = Matrix::Zero(n, n);
@@ -49,6 +102,7 @@ Matrix pull_changes(const Model& model, const std::vector<Unknown>& unknowns, co
     const Vector e = unknown_step * Vector::Unit(n, i);
     changes.row(i) = (pulls(z + e) - pulls(z - e)).transpose() / (2 * unknown_step);
   }
+  for (const Eigen::Index k : parts.second) changes.col(k) = changes.row(k).transpose();
   return changes;
 }
 
@@ -79,15 +133,21 @@ Matrix mechanical_curvature(const Model& model, const std::vector<Unknown>& unkn
   const Eigen::Index n = z.size();
   if (size == 0) return Matrix::Zero(n, n);
   const double h = step / size;
+  // Along with a mode's field, so that little is strained.
+  const Matrix fields = by_unknown(model, unknowns, p, field_of_mode);
+  Matrix moving(positions.rows(), 2 * n);
+  moving << positions - fields, fields - held_by_unknown(model, unknowns, p);
+  const auto own = moving.leftCols(n);
   const Positions up = x + h * adjoint, down = x - h * adjoint;
-  const Matrix bent = (products(model, up, p, positions, ws.stiffness) -
-                       products(model, down, p, positions, ws.stiffness)) /
+  const Matrix bent = (products(model, up, p, moving, ws.stiffness) -
+                       products(model, down, p, moving, ws.stiffness)) /
                       (2 * h);
   const Matrix pulled =
       (force_by_unknown(model, unknowns, up, p) - force_by_unknown(model, unknowns, down, p)) /
-      (2 * h);
-  const Matrix crossed = positions.transpose() * pulled;
-  const Matrix s = crossed + crossed.transpose() - positions.transpose() * bent +
+          (2 * h) -
+      bent.rightCols(n);
+  const Matrix crossed = own.transpose() * pulled;
+  const Matrix s = crossed + crossed.transpose() - own.transpose() * bent.leftCols(n) +
                    pull_changes(model, unknowns, z, x, p, adjoint);
   return 0.5 * (s + s.transpose());
 }

@@ -13,7 +13,12 @@ namespace genio {
 Matrix force_by_unknown(const Model& model, const std::vector<Unknown>& unknowns,
                         const Positions& x, const Parameters& p);
 
-/// adjoint . dP_j/dz_i, P the pulls; zero, and cheap, where forces are linear in the unknowns.
+/// How far every command moves what no unknown can move, see held_motion(): 3 n x count [m].
+Matrix held_by_unknown(const Model& model, const std::vector<Unknown>& unknowns,
+                       const Parameters& p);
+
+/// adjoint . dP_j/dz_i, P the pulls, while the shape goes along with modes of anatomy; zero, and
+/// cheap, where forces are linear in the unknowns. Of two modes it is zero: little is strained.
 Matrix pull_changes(const Model& model, const std::vector<Unknown>& unknowns, const Vector& z,
                     const Positions& x, const Parameters& p, const Vector& adjoint);
 
@@ -30,8 +35,9 @@ Matrix target_curvature(const Comparison& comparison, const Positions& x, const 
 /// adjoint K lambda = sum r dr/dx, differentiating K X = P once more gives
 ///   lambda . K X_ij = -X_i . (dK) X_j + X_i . (dP_j) + X_j . (dP_i) + lambda . dP_j/dz_i,
 /// (dK) and (dP) the derivatives along lambda: the energy's third derivatives are symmetric, so one
-/// direction serves all pairs of unknowns. By differences, so that every effect and parameter
-/// counts: two assemblies. Overwrites ws.stiffness.
+/// direction serves all pairs of unknowns. With modes of anatomy, X and P are those of a shape that
+/// goes along with their fields. By differences, so that every effect and
+/// parameter counts: two assemblies. Overwrites ws.stiffness.
 Matrix mechanical_curvature(const Model& model, const std::vector<Unknown>& unknowns,
                             const Vector& z, const Positions& x, const Parameters& p,
                             const Matrix& positions, const Vector& adjoint, Workspace& ws);

@@ -139,12 +139,13 @@ const ObjectivePoint* Objective::derivatives(const Vector& activations) {
   Matrix right(x.size(), n + 1);
   right << force_by_unknown(model_, unknowns_, x, point.equilibrium.parameters),
       misfit_gradient(point.residuals, x.size());
-  const Matrix solved = sensitivity_to_forces(model_, point.equilibrium, right, ws_);
+  Matrix solved = sensitivity_to_forces(model_, point.equilibrium, right, ws_);
   if (solved.size() == 0) {
     failure_ = "the equilibrium is unstable";
     return nullptr;
   }
   point.adjoint = solved.col(n);
+  solved.leftCols(n) += held_by_unknown(model_, unknowns_, point.equilibrium.parameters);
   set_positions(point, solved.leftCols(n));
   return keep(std::move(point));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/target/moved_target.hpp"
 
 namespace genio {
@@ -182,7 +183,7 @@ std::vector<Vec3> icosahedron(double r) {
 Comparison::Comparison(const Model& model, Target target, double smoothing)
     : target_(std::move(target)),
       line_(model),
-      rest_(model.rest),
+      rest_(at_anatomy(model)->rest),
       about_(icosahedron(smoothing)),
       middle_(target_.middle()) {
   if (!target_.surface.empty()) facets_ = facets(model.surface);

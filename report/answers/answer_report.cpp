@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "forward/base/text_file.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/target/tongue_line.hpp"
 #include "report/answers/answer_table.hpp"
 #include "report/pictures/svg.hpp"
@@ -39,11 +40,12 @@ void draw_plane(Svg& svg, const Model& model, const AnswerView& v) {
   }
   svg.text(axes.left + axes.width / 2, axes.top + axes.height + 34,
            "x [mm], lips left, pharynx right", 12, "middle", "#555");
-  for (const auto* surface : {&model.palate, &model.jaw, &model.hyoid})
+  const auto here = at_anatomy(model);
+  for (const auto* surface : {&here->palate, &here->jaw, &here->hyoid})
     if (*surface)
       for (const auto& cut : midsagittal_cut(**surface))
         svg.polyline(axes, in_mm(cut), {bone, "none", 2.2});
-  svg.polyline(axes, in_mm(TongueLine(model).sample(model.rest, 120)), {grey, "none", 2, "6,4"});
+  svg.polyline(axes, in_mm(TongueLine(model).sample(here->rest, 120)), {grey, "none", 2, "6,4"});
   if (!v.predicted.empty()) svg.polyline(axes, in_mm(v.predicted), {blue, "none", 2.6});
   for (const Vec2& p : v.measured)
     svg.circle(axes.px(1e3 * p[0]), axes.py(1e3 * p[1]), 3, {"white", red, 0.7});

@@ -7,6 +7,7 @@
 #include "forward/base/printed_text.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/geometry/vtk_io.hpp"
+#include "forward/model/at_anatomy.hpp"
 
 namespace genio {
 
@@ -15,7 +16,7 @@ void write_shape(const Model& model, const Positions& x, const std::string& path
   VtkArray displacement{3, {}, false};
   for (size_t a = 0; a < model.mesh.nodes.size(); ++a) {
     data.points.push_back(node_position(x, int(a)));
-    const Vec3 u = data.points.back() - model.mesh.nodes[a];
+    const Vec3 u = data.points.back() - at_anatomy(model)->mesh.nodes[a];
     displacement.values.insert(displacement.values.end(), {u[0], u[1], u[2]});
   }
   for (const auto& e : model.mesh.elements) {
@@ -45,7 +46,8 @@ void write_motion(const Model& model, const Trajectory& trajectory, const std::s
     series.print("<DataSet timestep=\"{}\" file=\"frames/{}\"/>\n", now.time, file);
     table.print("{}", now.time);
     for (const auto& [name, node] : landmarks) {
-      const Vec3 u = 1e3 * (node_position(now.x, node) - node_position(model.rest, node));
+      const Vec3 u =
+          1e3 * (node_position(now.x, node) - node_position(at_anatomy(model)->rest, node));
       table.print(",{:.6g},{:.6g},{:.6g}", u[0], u[1], u[2]);
     }
     table.print(",{:.6g},{:.6g},{:.6g},{:.6g}\n", now.kinetic, now.potential, now.dissipated,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "forward/model/at_anatomy.hpp"
 #include "report/pictures/svg.hpp"
 
 namespace genio {
@@ -45,7 +46,9 @@ std::vector<Eigen::Vector2d> surface_line(const Model& m, const Positions& x) {
 
 }  // namespace
 
-std::string draw_shape(const Model& m, const Positions& x, const std::string& title) {
+std::string draw_shape(const Model& given, const Positions& x, const std::string& title) {
+  const auto here = at_anatomy(given);
+  const Model& m = *here;
   Svg svg(1060, 520);
   svg.text(50, 28, title, 16, "start", "#111");
   const Axes side = framed(svg, {38, 148, 44, 134, 50, 44, 530, 434}, "x [mm], lips left");

@@ -1,5 +1,6 @@
 #include "tests/forward/small_model.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <random>
 
@@ -51,6 +52,13 @@ ModelDescription small_block() {
   return d;
 }
 
+std::vector<NamedField> test_modes() {
+  return {{"size", [](const Vec3& x) -> Vec3 { return 0.05 * (x - Vec3(0.02, 0.005, 0)); }},
+          {"depth", [](const Vec3& x) -> Vec3 {
+             return {1.5e-3 * std::tanh(60 * x[0]), 0, 4e-4 * std::sin(90 * x[0])};
+           }}};
+}
+
 ModelDescription with_every_effect() {
   ModelDescription d = small_block();
   TriangleSurface jaw;  // a tilted plane just in front
@@ -60,6 +68,7 @@ ModelDescription with_every_effect() {
                   {-0.0012, -0.01, 0.03}};
   jaw.triangles = {{0, 1, 2}, {0, 2, 3}};
   d.jaw = jaw;
+  d = with_modes(std::move(d), test_modes());
   d.effects.clear();
   for (const EffectKind& kind : effect_kinds())
     if (!kind.always) d.effects[kind.name] = kind.sample;

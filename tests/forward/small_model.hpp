@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "forward/effects/modes/moved_rest.hpp"
 #include "forward/model/build_model.hpp"
 
 namespace genio::test {
@@ -9,6 +10,9 @@ namespace genio::test {
 /// to check every derivative by differences.
 ModelDescription small_block();
 Model small_model();
+
+/// Two modes of anatomy in closed form: a size about a point, and a depth along x that bends.
+std::vector<NamedField> test_modes();
 
 /// The same with every effect there is, at the samples of their kinds.
 ModelDescription with_every_effect();

@@ -121,22 +121,24 @@ void AirwayPressure::add_force_derivative(const Positions& x, EffectParameters, 
 }
 
 EffectKind airway_pressure_kind() {
-  return {.name = "airway_pressure",
-          .make = [](Settings& s, const Anatomy& a) -> Effect {
-            const HexMesh& mesh = a.description.mesh;
-            return {.potential = std::make_shared<AirwayPressure>(
-                        mesh, a.supports, airway_faces(mesh, a.supports), s.take("pressure", 0))};
-          },
-          .main = "pressure",
-          .external = true,
-          .belief = {.parameters = {{.parameter = "pressure", .typical = 400}}},
-          .sample = {{"pressure", 300}},
-          .hidden =
-              [](const ChangeDraw&) {
-                return change_by_number(
-                    "airway_pressure",
-                    {.key = "pressure", .absent = 0, .unit = 100, .first = 2, .most = 40});
-              }};
+  return {
+      .name = "airway_pressure",
+      .make = [](Settings& s, const Anatomy& a) -> Effect {
+        const HexMesh& mesh = a.description.mesh;
+        const HexMesh& standing = a.standing ? a.standing->mesh : mesh;
+        return {.potential = std::make_shared<AirwayPressure>(
+                    mesh, a.supports, airway_faces(standing, a.supports), s.take("pressure", 0))};
+      },
+      .main = "pressure",
+      .external = true,
+      .belief = {.parameters = {{.parameter = "pressure", .typical = 400}}},
+      .sample = {{"pressure", 300}},
+      .hidden =
+          [](const ChangeDraw&) {
+            return change_by_number(
+                "airway_pressure",
+                {.key = "pressure", .absent = 0, .unit = 100, .first = 2, .most = 40});
+          }};
 }
 
 }  // namespace genio

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "forward/effects/surroundings/contact_rates.hpp"
+
 namespace genio {
 namespace {
 
@@ -12,7 +14,8 @@ EffectParameters jaw(EffectParameters p) { return p.subspan(jaw_angle); }
 
 }  // namespace
 
-Contact::Contact(std::string name, std::shared_ptr<const ContactSurface> surface, double stiffness)
+Contact::Contact(std::string name, std::shared_ptr<const ContactSurface> surface, double stiffness,
+                 std::vector<Vec3> AnatomyMode::*of_bone)
     : name_(std::move(name)),
       surface_(std::move(surface)),
       info_{{{.name = "stiffness",
@@ -20,7 +23,8 @@ Contact::Contact(std::string name, std::shared_ptr<const ContactSurface> surface
               .value = stiffness,
               .lower = 0,
               .upper = 1e12,
-              .penalty = true}}} {}
+              .penalty = true}}},
+      of_bone_(of_bone) {}
 
 double Contact::energy(const Positions& x, EffectParameters p) const {
   double e = 0;
@@ -100,6 +104,11 @@ double Contact::max_penetration(const Positions& x, EffectParameters p) const {
     deepest = std::max(deepest, t.depth - std::max(0.0, t.point->clearance));
   });
   return deepest;
+}
+
+void Contact::add_force_along(const Positions& x, EffectParameters p, const Positions& rest,
+                              std::span<const AnatomyMode* const> modes, Matrix& df) const {
+  add_contact_rates(*surface_, p[0], x, jaw(p), rest, modes, of_bone_, df);
 }
 
 }  // namespace genio

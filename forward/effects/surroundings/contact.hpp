@@ -17,7 +17,9 @@ namespace genio {
 /// Parameter: stiffness k [Pa/m], pressure per depth.
 class Contact final : public ContactPotential, public NewtonAid {
  public:
-  Contact(std::string name, std::shared_ptr<const ContactSurface> surface, double stiffness);
+  /// `of_bone`: the displacements of the surface's vertices in a mode of anatomy.
+  Contact(std::string name, std::shared_ptr<const ContactSurface> surface, double stiffness,
+          std::vector<Vec3> AnatomyMode::*of_bone = &AnatomyMode::palate);
 
   std::string_view name() const override { return name_; }
   std::span<const ParameterInfo> parameters() const override { return info_; }
@@ -40,11 +42,14 @@ class Contact final : public ContactPotential, public NewtonAid {
     return surface_->touchable->field->exact().face()(point);
   }
   double max_penetration(const Positions& x, EffectParameters p) const override;
+  void add_force_along(const Positions& x, EffectParameters p, const Positions& rest,
+                       std::span<const AnatomyMode* const> modes, Matrix& df) const override;
 
  private:
   std::string name_;
   std::shared_ptr<const ContactSurface> surface_;
   std::array<ParameterInfo, 1> info_;
+  std::vector<Vec3> AnatomyMode::*of_bone_;
 };
 
 }  // namespace genio

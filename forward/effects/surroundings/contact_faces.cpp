@@ -39,6 +39,16 @@ int cells(const Vec3& side, const Vec3& opposite, double apart) {
   return 1 << std::clamp(int(std::lround(std::log2(length / apart))), 0, 6);
 }
 
+/// The area that a point stands for [m^2].
+double area_of(const ContactFace& face, const std::array<Vec3, 4>& x,
+               const std::array<double, 4>& weight) {
+  const double u = weight[1] + weight[2], v = weight[2] + weight[3];
+  const auto [by_u, by_v] = face_tangents(x, weight);
+  // Trapezoidal rule.
+  const double part = (u > 0 && u < 1 ? 1 : 0.5) * (v > 0 && v < 1 ? 1 : 0.5);
+  return part * by_u.cross(by_v).norm() / (face.cells_u * face.cells_v);
+}
+
 ContactFace contact_face(const DistanceField& field, const HexMesh& mesh, const Quad& nodes,
                          const std::vector<Support>& supports, double apart) {
   std::array<Vec3, 4> x;
@@ -53,14 +63,9 @@ ContactFace contact_face(const DistanceField& field, const HexMesh& mesh, const 
       const double u = double(i) / face.cells_u, v = double(j) / face.cells_v;
       ContactPoint point{{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v}, 0, contact_gap};
       const auto& w = point.weight;
-      const Vec3 by_u = (1 - v) * (x[1] - x[0]) + v * (x[2] - x[3]);
-      const Vec3 by_v = (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1]);
-      // Trapezoidal rule.
-      const double part = (u > 0 && u < 1 ? 1 : 0.5) * (v > 0 && v < 1 ? 1 : 0.5);
       const auto clearance = rest_clearance(field, blend(x, w), near);
       if (clearance && std::inner_product(w.begin(), w.end(), moves.begin(), 0.0) >= 0.5)
-        point.area = part * by_u.cross(by_v).norm() / (face.cells_u * face.cells_v),
-        point.clearance = *clearance;
+        point.area = area_of(face, x, w), point.clearance = *clearance;
       face.points.push_back(point);
     }
   return face;
@@ -70,6 +75,7 @@ std::shared_ptr<const ContactFaces> made(const TriangleSurface& surface, const H
                                          const std::vector<Support>& supports, double apart) {
   auto result = std::make_shared<ContactFaces>();
   result->field = bone_field(surface, mesh);
+  result->surface = surface;
   std::vector<int>& all = result->nodes;
   for (const Quad& nodes : outer_faces(mesh, supports)) {
     ContactFace face = contact_face(*result->field, mesh, nodes, supports, apart);
@@ -114,6 +120,25 @@ std::shared_ptr<const ContactFaces> contact_faces(const TriangleSurface& surface
   kept.push_back({surface, mesh, supports, apart, faces});
   if (kept.size() > most_kept) kept.pop_front();
   return faces;
+}
+
+std::shared_ptr<const ContactFaces> moved_faces(const ContactFaces& standing,
+                                                const TriangleSurface& surface,
+                                                const HexMesh& mesh) {
+  auto result = std::make_shared<ContactFaces>(standing);
+  result->field = moved_bone_field(*standing.field, surface, mesh);
+  result->surface = surface;
+  for (ContactFace& face : result->faces) {
+    std::array<Vec3, 4> x;
+    for (size_t a = 0; a < 4; ++a) x[a] = mesh.nodes[size_t(face.nodes[a])];
+    for (ContactPoint& point : face.points) {
+      if (point.area == 0) continue;
+      const auto& w = point.weight;
+      point.area = area_of(face, x, w);
+      point.clearance = std::min(contact_gap, result->field->value_if_touching(blend(x, w)));
+    }
+  }
+  return result;
 }
 
 }  // namespace genio

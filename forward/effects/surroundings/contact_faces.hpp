@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "forward/algebra/supports.hpp"
@@ -32,6 +33,7 @@ struct ContactFace {
 /// A bone at rest and the tongue's faces that may touch it.
 struct ContactFaces {
   std::shared_ptr<const DistanceField> field;
+  TriangleSurface surface;  ///< of the bone, that the field is of
   std::vector<ContactFace> faces;
   std::vector<int> nodes;  ///< of the faces, each once
 };
@@ -45,6 +47,20 @@ std::shared_ptr<const ContactFaces> contact_faces(const TriangleSurface& surface
                                                   const HexMesh& mesh,
                                                   const std::vector<Support>& supports,
                                                   double apart = 0.25e-3);
+
+/// The same points of a mesh and a surface that have moved: their areas, and what they keep from
+/// the bone, are new. Which points there are, and which may touch, is as it was.
+std::shared_ptr<const ContactFaces> moved_faces(const ContactFaces& standing,
+                                                const TriangleSurface& surface,
+                                                const HexMesh& mesh);
+
+/// How the field `x` of a face's four corners changes along the face's two sides, at the point with
+/// these weights.
+inline std::pair<Vec3, Vec3> face_tangents(const std::array<Vec3, 4>& x,
+                                           const std::array<double, 4>& weight) {
+  const double u = weight[1] + weight[2], v = weight[2] + weight[3];
+  return {(1 - v) * (x[1] - x[0]) + v * (x[2] - x[3]), (1 - u) * (x[3] - x[0]) + u * (x[2] - x[1])};
+}
 
 /// A point between four corners by their weights.
 inline Vec3 blend(const std::array<Vec3, 4>& x, const std::array<double, 4>& weight) {

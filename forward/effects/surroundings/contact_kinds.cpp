@@ -11,17 +11,20 @@ namespace {
 
 /// With the surface of a bone ("palate").
 Effect contact(Settings& s, const Anatomy& a, const std::string& bone,
-               const std::optional<TriangleSurface>& surface,
-               const std::optional<Vec3>& hinge = {}) {
+               std::optional<TriangleSurface> ModelDescription::*of,
+               std::vector<Vec3> AnatomyMode::*moving, const std::optional<Vec3>& hinge = {}) {
   const ModelDescription& d = a.description;
+  const auto& surface = d.*of;
   const std::string name = bone + "_contact";
   if (!surface)
     throw InputError(
         fmt::format("{}: [effect.{}] needs a surface '{}' in [surfaces]", a.source, name, bone));
   const double stiffness = s.take("stiffness", 2e8), damping = s.take("damping", 0);
-  const auto placed = std::make_shared<const ContactSurface>(
-      ContactSurface{contact_faces(*surface, d.mesh, a.supports), hinge});
-  const auto touch = std::make_shared<Contact>(name, placed, stiffness);
+  const ModelDescription& standing = a.standing ? *a.standing : d;
+  auto faces = contact_faces(*(standing.*of), standing.mesh, a.supports);
+  if (a.standing) faces = moved_faces(*faces, *surface, d.mesh);
+  const auto placed = std::make_shared<const ContactSurface>(ContactSurface{faces, hinge});
+  const auto touch = std::make_shared<Contact>(name, placed, stiffness, moving);
   return {.potential = touch,
           .dissipation = std::make_shared<ContactDamping>(name, placed, damping),
           .contact = touch};
@@ -59,8 +62,10 @@ Belief there_or_not() { return {.parameters = {{.parameter = "stiffness", .typic
 
 EffectKind palate_contact_kind() {
   return {.name = "palate_contact",
-          .make = [](Settings& s,
-                     const Anatomy& a) { return contact(s, a, "palate", a.description.palate); },
+          .make =
+              [](Settings& s, const Anatomy& a) {
+                return contact(s, a, "palate", &ModelDescription::palate, &AnatomyMode::palate);
+              },
           .external = true,
           .belief = there_or_not(),
           .sample = {{"stiffness", 1e7}, {"damping", 8}},
@@ -74,7 +79,8 @@ EffectKind jaw_contact_kind() {
   return {.name = "jaw_contact",
           .make =
               [](Settings& s, const Anatomy& a) {
-                return contact(s, a, "jaw", a.description.jaw, opening_hinge(a));
+                return contact(s, a, "jaw", &ModelDescription::jaw, &AnatomyMode::jaw,
+                               opening_hinge(a));
               },
           .external = true,
           .belief = there_or_not(),

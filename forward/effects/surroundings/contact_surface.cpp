@@ -109,6 +109,12 @@ DistanceSample PlacedSurface::sample(const Vec3& x) const {
   return s;
 }
 
+DistanceRates::Rates PlacedSurface::rates(DistanceRates& rates, const Vec3& x) const {
+  DistanceRates::Rates r = rates.at(local(x));
+  r.gradient = turn_ * r.gradient;
+  return r;
+}
+
 std::pair<double, Vec3> PlacedSurface::by_jaw(const Vec3& x, bool angle) const {
   const DistanceSample s = field_.sample(jaw_.back(x));
   const Vec3 local = angle ? jaw_.back_by_angle(x) : jaw_.back_by_slide();

@@ -9,6 +9,7 @@
 #include "forward/effects/bones/jaw_motion.hpp"
 #include "forward/effects/parameter.hpp"
 #include "forward/effects/surroundings/contact_faces.hpp"
+#include "forward/geometry/surfaces/distance_rates.hpp"
 #include "forward/tissue/soft_spring.hpp"
 
 namespace genio {
@@ -39,6 +40,8 @@ class PlacedSurface {
   /// larger number [m].
   double value_if_touching(const Vec3& x) const { return field_.value_if_touching(local(x)); }
   DistanceSample sample(const Vec3& x) const;
+  /// How distance and gradient change with the bone's own shape.
+  DistanceRates::Rates rates(DistanceRates& rates, const Vec3& x) const;
   /// The distance to within 2 mm, without filling in what is fine [m].
   double rough(const Vec3& x) const { return field_.rough(local(x)); }
   /// A lower bound of the value within a radius about x [m].

@@ -62,4 +62,14 @@ std::shared_ptr<const DistanceField> bone_field(const TriangleSurface& surface,
   return field;
 }
 
+std::shared_ptr<const DistanceField> moved_bone_field(const DistanceField& standing,
+                                                      const TriangleSurface& surface,
+                                                      const HexMesh& mesh) {
+  const TriangleSurface facing = facing_tongue(surface, mesh.nodes);
+  const Box box(facing, mesh.nodes);
+  const Vec3 cells = (box.low - standing.low()) / spacing;
+  return std::make_shared<DistanceField>(
+      facing, standing.low() + spacing * Vec3(cells.array().floor()), box.high, spacing);
+}
+
 }  // namespace genio

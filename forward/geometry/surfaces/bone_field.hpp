@@ -11,4 +11,10 @@ namespace genio {
 std::shared_ptr<const DistanceField> bone_field(const TriangleSurface& surface,
                                                 const HexMesh& mesh);
 
+/// The field of a surface that has moved, and its tongue with it. The nodes of its grids lie where
+/// those of the standing field do, so that its values are smooth in the motion. It is not kept.
+std::shared_ptr<const DistanceField> moved_bone_field(const DistanceField& standing,
+                                                      const TriangleSurface& surface,
+                                                      const HexMesh& mesh);
+
 }  // namespace genio

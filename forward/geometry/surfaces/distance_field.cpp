@@ -159,6 +159,14 @@ bool DistanceField::locate(const Vec3& p, Spot& spot) const {
   return true;
 }
 
+std::optional<DistanceField::Cell> DistanceField::cell(const Vec3& p) const {
+  Spot spot;
+  if (!locate(p, spot)) return {};
+  Cell c{spot.brick, spot.fraction};
+  for (size_t d = 0; d < 3; ++d) c.node[d] = cells * spot.brick[d] + spot.cell[d];
+  return c;
+}
+
 const DistanceField::Brick* DistanceField::there(const Spot& spot) const {
   const auto& b = spot.brick;
   return bricks_[(size_t(b[2]) * by_ + b[1]) * bx_ + b[0]].load(std::memory_order_acquire);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -41,6 +42,21 @@ class DistanceField {
   double at_least(const Vec3& p, double radius) const;
   /// Without the spline [m].
   const BoneDistance& exact() const { return distance_; }
+
+  /// A cell of the fine grid by its first node, and a place within it, 0 to 1.
+  struct Cell {
+    std::array<int, 3> node;
+    Vec3 fraction;
+  };
+  /// The cell of a point; none outside the box.
+  std::optional<Cell> cell(const Vec3& p) const;
+  /// Where a node of the fine grid lies [m].
+  Vec3 node(const std::array<int, 3>& number) const {
+    return low_ + fine_ * Vec3(number[0], number[1], number[2]);
+  }
+  double fine_spacing() const { return fine_; }
+  /// Low corner of the box, a node of both grids [m].
+  const Vec3& low() const { return low_; }
 
  private:
   struct Brick;

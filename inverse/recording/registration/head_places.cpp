@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "forward/base/median.hpp"
+#include "forward/model/at_anatomy.hpp"
 
 namespace genio {
 namespace {
@@ -18,7 +19,7 @@ std::vector<Vec2> cut_of(const std::optional<TriangleSurface>& surface) {
 }
 
 std::optional<Vec2> hyoid_of(const Model& model) {
-  const auto cut = cut_of(model.hyoid);
+  const auto cut = cut_of(at_anatomy(model)->hyoid);
   if (cut.empty()) return {};
   Vec2 middle = Vec2::Zero();
   for (const Vec2& q : cut) middle += q / double(cut.size());
@@ -34,7 +35,7 @@ std::optional<Vec2> short_tendon_of(const Model& model) {
         if (end.node < 0) continue;
         const Support support = model.supports[size_t(end.node)];
         if (support != Support::fixed && support != Support::led) continue;
-        const auto at = node_position(model.rest, end.node);
+        const auto at = node_position(at_anatomy(model)->rest, end.node);
         if (!lowest || at[2] < (*lowest)[1]) lowest = Vec2(at[0], at[2]);
       }
   }
@@ -42,7 +43,7 @@ std::optional<Vec2> short_tendon_of(const Model& model) {
 }
 
 std::optional<Vec2> shadow_of(const Model& model) {
-  const auto cut = cut_of(model.jaw);
+  const auto cut = cut_of(at_anatomy(model)->jaw);
   if (cut.empty()) return {};
   return *std::max_element(cut.begin(), cut.end(),
                            [](const Vec2& a, const Vec2& b) { return a[0] - a[1] < b[0] - b[1]; });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/recording/registration/postures.hpp"
 
 namespace genio {
@@ -14,7 +15,7 @@ constexpr int line_points = 60;
 
 TongueReach reach_of(const Model& model, const std::function<void()>& on_step) {
   const TongueLine line(model);
-  TongueReach reach{line.sample(model.rest, line_points), {}};
+  TongueReach reach{line.sample(at_anatomy(model)->rest, line_points), {}};
   const Matrix modes = principal_modes(postures_of(model, on_step), 2, [&](const Positions& x) {
     Vector row(2 * line_points);
     const auto points = line.sample(x, line_points);

@@ -6,6 +6,7 @@
 
 #include "forward/base/median.hpp"
 #include "forward/base/thin.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "inverse/recording/registration/bent_lines.hpp"
 #include "inverse/recording/registration/registration_problem.hpp"
 
@@ -110,7 +111,7 @@ Registration register_by_palate(const Model& model, const TongueReach& reach,
     throw InputError("registration needs a palate; the model file has none in [surfaces]");
   if (palate_trace.size() < 5)
     throw InputError("registration needs a palate trace of at least 5 points");
-  const auto cut = midsagittal_cut(*model.palate);
+  const auto cut = midsagittal_cut(*at_anatomy(model)->palate);
   if (cut.empty()) throw InputError("the model's palate does not cross the midsagittal plane");
   RegistrationProblem problem = problem_of(reach, contours, marks);
   problem.palate.assign(cut.front().begin(), cut.front().end());

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "forward/base/thin.hpp"
+#include "forward/model/at_anatomy.hpp"
 #include "forward/model/model.hpp"
 #include "inverse/recording/registration/postures.hpp"
 #include "inverse/recording/scan_pose/scan_fit.hpp"
@@ -87,7 +88,7 @@ Vec3 mean(const std::vector<Vec3>& points) {
 }
 
 SurfaceReach surface_reach_of(const Model& model) {
-  SurfaceReach reach{facets(model.surface), model.rest, {}};
+  SurfaceReach reach{facets(model.surface), at_anatomy(model)->rest, {}};
   std::vector<int> nodes;
   for (const Quad& q : model.surface) nodes.insert(nodes.end(), q.begin(), q.end());
   std::sort(nodes.begin(), nodes.end());
@@ -111,7 +112,8 @@ std::vector<ScanRegistration> register_scan(const Model& model, const SurfaceRea
   const bool by_palate = !scan.palate.empty();
   if (by_palate && !model.palate)
     throw InputError("registration needs a palate; the model file has none in [surfaces]");
-  const auto palate = by_palate ? std::make_unique<SurfaceDistance>(*model.palate) : nullptr;
+  const auto palate =
+      by_palate ? std::make_unique<SurfaceDistance>(*at_anatomy(model)->palate) : nullptr;
   ScanProblem problem{.reach = reach,
                       .palate = palate.get(),
                       .points = thin(scan.tongue, enough_points),

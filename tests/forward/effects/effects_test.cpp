@@ -24,6 +24,7 @@ TEST(Battery, CoversEveryEffectOfTheSmallModel) {
   for (const auto& d : m.dissipations) covered.insert(d.effect);
   for (const auto& i : m.inertias) covered.insert(i.effect);
   for (const auto& f : m.filters) covered.insert(f.effect);
+  for (const auto& a : m.anatomy) covered.insert(a.effect);
   EXPECT_EQ(covered.size(), m.effects.size());
 }
 

@@ -1,0 +1,183 @@
+#include "cli/speaker/adapt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/support.hpp"
+#include "forward/base/elapsed.hpp"
+#include "forward/base/median.hpp"
+#include "forward/model/build_model.hpp"
+#include "speaker/adaptation/adapt.hpp"
+#include "speaker/adaptation/stack_sides.hpp"
+#include "speaker/modes/mode_fields.hpp"
+#include "speaker/modes/modes_file.hpp"
+#include "speaker/modes/speaker_sight.hpp"
+
+namespace genio::cli {
+namespace {
+
+struct AdaptCommand {
+  std::string model = default_model(), modes = default_modes();
+  std::string outline, speaker, palate, contours, slices, surface, out;
+  bool json = false;
+};
+
+/// A model with the speaker's place among others, where an outline or parts of one tell it.
+struct AdaptedSpeaker {
+  Adaptation adaptation;
+  OutlineModes modes;
+  std::optional<AnatomyEstimate> estimate;
+  bool from_parts = false;  ///< the outline is the estimate's, not a measured one
+};
+
+double mode_sd(const AnatomyEstimate& e, Eigen::Index k) {
+  return std::sqrt(std::max(0.0, e.covariance(k, k)));
+}
+
+/// Of the points of the tongue's own line, the median standard deviation [m].
+double outline_sd(const AnatomyEstimate& e) {
+  std::vector<double> sd(e.sd.begin(), e.sd.begin() + 2 * outline_stretch("palate").first);
+  return median(std::move(sd));
+}
+
+nlohmann::ordered_json adapt_json(const AdaptCommand& o, const AdaptedSpeaker& s, double wall) {
+  const Adaptation& a = s.adaptation;
+  nlohmann::ordered_json j{{"status", a ? "converged" : "failed"},
+                           {"rms_mm", a.distances.rms * 1e3},
+                           {"max_mm", a.distances.most * 1e3},
+                           {"free_rms_mm", a.distances.free_rms * 1e3}};
+  if (a.outline.free_surface_only) j["floor_rms_mm"] = nullptr;
+  else j["floor_rms_mm"] = a.distances.floor_rms * 1e3;
+  if (a.surface_rms) j["surface_rms_mm"] = *a.surface_rms * 1e3;
+  if (a.outline.has(Segment::palate) && a.model.palate) j["palate_rms_mm"] = a.palate_rms * 1e3;
+  else j["palate_rms_mm"] = nullptr;
+  j["min_jacobian"] = a.min_jacobian, j["volume_cm3"] = a.volume * 1e6;
+  auto &modes = j["modes"] = nlohmann::ordered_json::object(),
+       &sd = j["modes_sd"] = nlohmann::ordered_json::object();
+  if (s.estimate) {
+    for (Eigen::Index k = 0; k < s.modes.named(); ++k)
+      modes[s.modes.names[size_t(k)]] = s.estimate->values[k],
+      sd[s.modes.names[size_t(k)]] = mode_sd(*s.estimate, k);
+    j["outline_from_parts"] = s.from_parts;
+    j["outline_sd_mm"] = outline_sd(*s.estimate) * 1e3;
+    j["sight_rms_mm"] = s.estimate->rms * 1e3;
+  }
+  if (a.outline.speaker.empty()) j["speaker"] = nullptr;
+  else j["speaker"] = a.outline.speaker;
+  j["rest_overlap_mm"] = a.rest_overlap * 1e3;
+  j["scale"] = a.scale, j["repaired_elements"] = a.repaired;
+  j["max_force_scale"] = a.max_force_scale, j["notes"] = a.outline.notes;
+  if (a) j["out"] = o.out;
+  else j["message"] = a.message;
+  j["wall_s"] = wall;
+  return j;
+}
+
+std::optional<SpeakerSurface> given_surface(const AdaptCommand& o) {
+  if (!o.surface.empty()) return SpeakerSurface{read_surface(o.surface), o.surface};
+  if (!o.slices.empty()) return SpeakerSurface{stack_sides(read_contour_stack(o.slices)), o.slices};
+  return std::nullopt;
+}
+
+/// What is not known of the anatomy, as a prior for inversions with the model.
+void write_anatomy_prior(const AdaptedSpeaker& s, const std::string& path) {
+  std::ofstream out(path);
+  out << "# Modes of anatomy about this model, in standard deviations among speakers.\n"
+         "[parameter]\n";
+  for (Eigen::Index k = 0; k < s.modes.named(); ++k)
+    out << fmt::format("\"anatomy.{}\" = {{ mean = 0, sd = {:.4f} }}\n", s.modes.names[size_t(k)],
+                       mode_sd(*s.estimate, k));
+  out.flush();
+  if (!out) throw InputError(path + ": cannot be written");
+}
+
+AdaptedSpeaker adapted_to_parts(const AdaptCommand& o, const ModelDescription& base) {
+  AdaptedSpeaker s{{}, read_outline_modes(o.modes), {}, true};
+  s.estimate = estimate_from_files(s.modes, {o.palate, o.contours});
+  s.adaptation = adapt_model(base, o.model, outline_through(s.estimate->places, o.contours), {});
+  return s;
+}
+
+AdaptedSpeaker adapted(const AdaptCommand& o, const ModelDescription& base) {
+  if (!o.contours.empty()) return adapted_to_parts(o, base);
+  const std::optional<SpeakerSurface> surface = given_surface(o);
+  if (o.outline.empty()) {
+    if (o.surface.empty())
+      throw InputError(
+          "adapt: expected --outline FILE, --palate FILE with --contours FILE, or --surface FILE "
+          "alone");
+    return {adapt_to_surface(base, o.model, *surface), {}, {}, false};
+  }
+  SpeakerOutline outline = read_outline(o.outline, o.speaker);
+  if (!o.palate.empty()) read_outline_palate(o.palate, outline);
+  AdaptedSpeaker s{
+      adapt_model(base, o.model, outline, surface), read_outline_modes(o.modes), {}, false};
+  s.estimate = estimate_of_outline(s.modes, s.adaptation.outline);
+  return s;
+}
+
+int run_adapt(const AdaptCommand& o) {
+  const Stopwatch watch;
+  const ModelDescription base = read_description(o.model);
+  AdaptedSpeaker s = adapted(o, base);
+  Adaptation& a = s.adaptation;
+  const std::string name = s.from_parts        ? o.contours
+                           : o.outline.empty() ? o.surface + o.slices
+                                               : o.outline;
+  if (a) {
+    if (s.estimate) {
+      const auto fields = mode_fields(s.modes, a.model, o.out);
+      a.model = with_modes(std::move(a.model), fields);
+    }
+    build_model(a.model, o.out);  // refuses what could not be computed with
+    write_description(a.model, o.out);
+    if (s.from_parts) write_anatomy_prior(s, (std::filesystem::path(o.out) / "prior.toml").string());
+  }
+  if (o.json) fmt::print("{}\n", adapt_json(o, s, watch.seconds()).dump());
+  for (const std::string& note : a.outline.notes) print_line(name + ": " + note);
+  if (!a) print_line(name + ": " + a.message);
+  else if (!o.json)
+    print_line(fmt::format(
+        "{}: {:.2f} mm RMS and at most {:.2f} mm from the outline, smallest corner-Jacobian ratio "
+        "{:.3f}, {:.1f} cm3, {:.3f} times the base's lengths",
+        o.out, a.distances.rms * 1e3, a.distances.most * 1e3, a.min_jacobian, a.volume * 1e6,
+        a.scale));
+  return a ? done : no_answer;
+}
+
+}  // namespace
+
+Runner add_adapt(Options& options) {
+  auto o = std::make_shared<AdaptCommand>();
+  options.add("--model", o->model, "Model folder or model.toml that is adapted");
+  options.add("--outline", o->outline,
+              "Midsagittal outline (CSV: segment, point, x_cm and y_cm, or x_mm and y_mm)", {});
+  options.add("--speaker", o->speaker, "Whose rows to take, where the file has several speakers",
+              {.only_with = {"--outline"}});
+  options.add("--palate", o->palate, "Palate of the same origin, in the place of the outline's",
+              {});
+  options.add("--contours", o->contours,
+              "Contours of the tongue at rest in the palate's frame, x backwards, where no whole "
+              "outline is known; the rest is estimated from 41 speakers",
+              {.only_with = {"--palate"}, .not_with = {"--outline", "--surface"}});
+  options.add("--modes", o->modes, "How speakers' outlines vary (data/anatomy/outline_modes.csv)");
+  options.add("--slices", o->slices,
+              "Closed coronal contours of the tongue in the outline's frame (CSV: slice, point, "
+              "x_mm, y_mm, z_mm)",
+              {.only_with = {"--outline"}, .not_with = {"--surface"}});
+  options.add("--surface", o->surface,
+              "Closed surface of the tongue in metres (OBJ, STL, PLY), in the outline's frame or, "
+              "alone, in the model's axes");
+  options.add("--out", o->out, "Model folder to write", {.required = true});
+  options.flag("--json", o->json, "One JSON object on standard output");
+  options.footer("Example: genio adapt --outline data/examples/adapt/outline.csv --out mine");
+  return [o] { return run_adapt(*o); };
+}
+
+}  // namespace genio::cli

@@ -1,0 +1,54 @@
+#include "speaker/modes/speaker_sight.hpp"
+
+#include <fmt/format.h>
+
+namespace genio {
+namespace {
+
+constexpr double far_better = 8;  // in log odds
+
+SpeakerSight mirrored_sight(SpeakerSight sight) {
+  for (SightedLine& line : sight.lines)
+    for (Vec2& p : line.points) p[0] = -p[0];
+  return sight;
+}
+
+double mean_height(const std::vector<SightedLine>& lines, bool palate) {
+  double sum = 0;
+  size_t count = 0;
+  for (const SightedLine& line : lines)
+    if (line.palate == palate)
+      for (const Vec2& p : line.points) sum += p[1], ++count;
+  return count ? sum / double(count) : 0;
+}
+
+}  // namespace
+
+AnatomyEstimate estimate_from_files(const OutlineModes& modes, const SightFiles& files) {
+  SpeakerOutline palate;
+  read_outline_palate(files.palate, palate);
+  SpeakerSight sight;
+  sight.lines.push_back({palate.segments.at(Segment::palate), true, files.noise});
+  for (auto& line : read_outline_lines(files.contours))
+    sight.lines.push_back({std::move(line), false, files.noise});
+  if (mean_height(sight.lines, false) > mean_height(sight.lines, true))
+    throw InputError(fmt::format(
+        "{}: lies above the palate of {}; expected both in one frame with the second coordinate up",
+        files.contours, files.palate));
+  const AnatomyEstimate here = estimate_anatomy(modes, sight);
+  const AnatomyEstimate turned = estimate_anatomy(modes, mirrored_sight(sight));
+  if (turned.cost < here.cost - far_better)
+    throw InputError(fmt::format(
+        "{}: palate and tongue are far more like those of a face that looks the other way (by {:.0f} "
+        "log odds); expected x to point backwards",
+        files.contours, here.cost - turned.cost));
+  return here;
+}
+
+AnatomyEstimate estimate_of_outline(const OutlineModes& modes, const SpeakerOutline& outline) {
+  SpeakerSight sight;
+  sight.points = outline_points(outline);
+  return estimate_anatomy(modes, sight);
+}
+
+}  // namespace genio
