@@ -137,7 +137,8 @@ int run_adapt(const AdaptCommand& o) {
     }
     build_model(a.model, o.out);  // refuses what could not be computed with
     write_description(a.model, o.out);
-    if (s.from_parts) write_anatomy_prior(s, (std::filesystem::path(o.out) / "prior.toml").string());
+    if (s.from_parts)
+      write_anatomy_prior(s, (std::filesystem::path(o.out) / "prior.toml").string());
   }
   if (o.json) fmt::print("{}\n", adapt_json(o, s, watch.seconds()).dump());
   for (const std::string& note : a.outline.notes) print_line(name + ": " + note);

@@ -12,10 +12,10 @@ namespace genio {
 /// Builds the effects. `source` is named in errors.
 Model build_model(const ModelDescription& description, const std::string& source);
 
-/// The model with its rest configuration moved by these values, one a mode of anatomy. It shares the
-/// pattern of couplings, so that workspaces serve both. It is made from the model's description:
-/// what was changed by hand is not in it. Throws InputError where an element turns inside out, or
-/// where the model has other effects than its description.
+/// The model with its rest configuration moved by these values, one a mode of anatomy. It shares
+/// the pattern of couplings, so that workspaces serve both. It is made from the model's
+/// description: what was changed by hand is not in it. Throws InputError where an element turns
+/// inside out, or where the model has other effects than its description.
 Model moved_model(const Model& model, const std::vector<double>& values);
 
 /// What the effects of such a description are made from, those of a moved one with the shares of

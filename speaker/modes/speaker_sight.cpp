@@ -38,10 +38,11 @@ AnatomyEstimate estimate_from_files(const OutlineModes& modes, const SightFiles&
   const AnatomyEstimate here = estimate_anatomy(modes, sight);
   const AnatomyEstimate turned = estimate_anatomy(modes, mirrored_sight(sight));
   if (turned.cost < here.cost - far_better)
-    throw InputError(fmt::format(
-        "{}: palate and tongue are far more like those of a face that looks the other way (by {:.0f} "
-        "log odds); expected x to point backwards",
-        files.contours, here.cost - turned.cost));
+    throw InputError(
+        fmt::format("{}: palate and tongue are far more like those of a face that looks the other "
+                    "way (by {:.0f} "
+                    "log odds); expected x to point backwards",
+                    files.contours, here.cost - turned.cost));
   return here;
 }
 
