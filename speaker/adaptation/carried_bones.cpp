@@ -1,6 +1,7 @@
 #include "speaker/adaptation/carried_bones.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "forward/geometry/surfaces/bone_distance.hpp"
@@ -13,7 +14,9 @@ namespace {
 constexpr double bone_spacing = 3e-3, line_spacing = 3e-3;  // of pairs [m]
 constexpr double near_palate = 15e-3, near_jaw = 8e-3;      // [m]
 constexpr double clearance = 3e-4;                          // between tongue and bone at rest [m]
-constexpr double bone_smoothing = 2e-4;
+// Bending against squared distances; the first that folds nothing near the bones is taken.
+constexpr std::array bone_smoothings = {2e-4, 2e-3, 1e-2, 5e-2, 0.5};
+constexpr double least_bone_stretch = 0.15;  // of the affine map's
 constexpr int bone_rounds = 3;
 
 bool inside(const std::vector<Vec2>& closed, const Vec2& p) {
@@ -42,6 +45,16 @@ std::vector<Vec2> samples_of(const std::vector<Vec2>& points) {
   std::vector<Vec2> samples;
   for (int k = 0; k <= count; ++k) samples.push_back(line.at(line.length() * k / count));
   return samples;
+}
+
+/// The closest map through the pairs that folds nothing at them.
+ThinPlateMap unfolded_map(const std::vector<PlacePair>& pairs) {
+  std::vector<Vec2> places;
+  for (const PlacePair& p : pairs) places.push_back(p.from);
+  const double least = least_bone_stretch * least_stretch(affine_map(pairs), {places.front()});
+  for (double smoothing : bone_smoothings)
+    if (ThinPlateMap map(pairs, smoothing); least_stretch(map, places) > least) return map;
+  return affine_map(pairs);
 }
 
 /// Where a bone's places should go: to the nearest of the outline's lines, unless that is far or
@@ -140,7 +153,7 @@ CarriedBones carry_bones(const ModelDescription& model, const ModelLine& line, c
   if (outline.has(Segment::mandible) && !outline.free_surface_only)
     jaw.lines.emplace_back(inner_side_of_mandible(outline));
   CarriedBones carried;
-  carried.map = ThinPlateMap(tongue, bone_smoothing);
+  carried.map = ThinPlateMap(tongue, bone_smoothings.front());
   // The incisors' edge, an end of both lines, is a place that they share.
   if (!palate.lines.empty() && outline.has(Segment::palate) && model.palate) {
     const auto theirs = underside_of_palate(outline.segments.at(Segment::palate));
@@ -152,7 +165,7 @@ CarriedBones carry_bones(const ModelDescription& model, const ModelLine& line, c
   for (int round = 0; round < bone_rounds; ++round) {
     std::vector<PlacePair> pairs = tongue;
     for (const BoneGoals* g : {&palate, &jaw}) g->add(carried.map, section, to, pairs);
-    carried.map = ThinPlateMap(pairs, bone_smoothing);
+    carried.map = unfolded_map(pairs);
   }
   if (outline.has(Segment::palate) && model.palate) {
     const auto cuts = midsagittal_cut(*model.palate);

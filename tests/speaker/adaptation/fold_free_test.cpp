@@ -62,7 +62,11 @@ TEST(CornerShape, StiffnessIsTheGradientsDerivativeWhereItIsPositive) {
 TEST(FoldFree, GradientIsTheEnergysDerivative) {
   const ModelDescription block = test::small_block();
   FoldFreeProblem p = problem_on(block.mesh);
-  p.pulls.push_back({{0, 3, 4, -1}, {0.2, 0.5, 0.3, 0}, Vec3(1e-3, 2e-3, 0), Mat3::Identity()});
+  const auto& nodes = block.mesh.elements.front();
+  p.pulls.push_back({{nodes[0], nodes[1], nodes[2], -1},
+                     {0.2, 0.5, 0.3, 0},
+                     Vec3(1e-3, 2e-3, 0),
+                     Mat3::Identity()});
   Positions x = rest_positions(block.mesh);
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += 2e-4 * std::sin(double(7 * i));
   const Vector gradient = fold_free_gradient(p, x);
