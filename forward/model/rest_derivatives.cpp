@@ -1,5 +1,7 @@
 #include "forward/model/rest_derivatives.hpp"
 
+#include <algorithm>
+
 #include "forward/effects/modes/moved_rest.hpp"
 #include "forward/model/at_anatomy.hpp"
 #include "forward/model/build_effects.hpp"
@@ -9,7 +11,8 @@
 namespace genio {
 namespace {
 
-constexpr double step = 1e-2;  // [sd]
+constexpr double step = 1e-2;           // [sd]
+constexpr double step_of_bones = 1e-3;  // [sd]: contact hardens over 0.055 mm
 
 std::vector<double> values_of_modes(const Model& model, const Parameters& p) {
   if (!model.anatomy.empty()) return model.anatomy.front().values(p);
@@ -40,19 +43,38 @@ class Remade {
   const Parameters& p_;
 };
 
+/// The modes themselves.
+std::vector<const AnatomyMode*> chosen(const Model& model, std::span<const int> modes) {
+  std::vector<const AnatomyMode*> result;
+  for (const int k : modes) result.push_back(&model.description->modes[size_t(k)]);
+  return result;
+}
+
+/// What contacts at the anatomy of p do as all goes along with these modes.
+Matrix force_of_contacts(const Model& model, const Positions& x, const Parameters& p,
+                         const std::vector<const AnatomyMode*>& modes) {
+  Matrix result = Matrix::Zero(x.size(), Eigen::Index(modes.size()));
+  const auto here = at_anatomy(model, p);
+  for (const auto& contact : here->contacts)
+    contact->add_force_along(x, contact.values(p), here->rest, modes, result);
+  return result;
+}
+
+bool touches(const Model& model, const Positions& x, const Parameters& p) {
+  const auto here = at_anatomy(model, p);
+  return std::any_of(here->contacts.begin(), here->contacts.end(),
+                     [&](const auto& c) { return c->energy(x, c.values(p)) > 0; });
+}
+
 }  // namespace
 
 Matrix force_by_modes(const Model& model, const Positions& x, const Parameters& p,
                       std::span<const int> modes) {
-  Matrix result = Matrix::Zero(x.size(), Eigen::Index(modes.size()));
-  if (modes.empty()) return result;
+  if (modes.empty()) return Matrix::Zero(x.size(), 0);
   const std::vector<double> at = values_of_modes(model, p);
   const Remade remade(model, p);
-  const auto here = at_anatomy(model, p);
-  std::vector<const AnatomyMode*> all;
-  for (const int k : modes) all.push_back(&model.description->modes[size_t(k)]);
-  for (const auto& contact : here->contacts)
-    contact->add_force_along(x, contact.values(p), here->rest, all, result);
+  const auto all = chosen(model, modes);
+  Matrix result = force_of_contacts(model, x, p, all);
   Stiffness k(model.pattern);
   stiffness(model, x, p, k);
   for (size_t c = 0; c < modes.size(); ++c) {
@@ -66,6 +88,38 @@ Matrix force_by_modes(const Model& model, const Positions& x, const Parameters& 
     column += k.multiply(followed(model.dofs, field));
   }
   return result;
+}
+
+Matrix force_by_mode_pairs(const Model& model, const Positions& x, const Parameters& p,
+                           std::span<const int> modes, const Vector& adjoint) {
+  const auto count = Eigen::Index(modes.size());
+  const auto all = chosen(model, modes);
+  const std::vector<double> at = values_of_modes(model, p);
+  const Remade remade(model, p);
+  const auto force_at = [&](Eigen::Index j, double by_j, Eigen::Index k, double by_k) {
+    std::vector<double> beside = at;
+    beside[size_t(modes[size_t(j)])] += by_j, beside[size_t(modes[size_t(k)])] += by_k;
+    return adjoint.dot(remade.force(
+        beside, x + by_j * nodal_field(*all[size_t(j)]) + by_k * nodal_field(*all[size_t(k)])));
+  };
+  Matrix result = Matrix::Zero(count, count);
+  for (Eigen::Index j = 0; j < count; ++j)
+    for (Eigen::Index k = 0; k <= j; ++k)
+      result(j, k) = result(k, j) = (force_at(j, step, k, step) - force_at(j, step, k, -step) -
+                                     force_at(j, -step, k, step) + force_at(j, -step, k, -step)) /
+                                    (4 * step * step);
+  if (!touches(model, x, p)) return result;
+  Matrix of_contacts(count, count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const auto along = [&](double h) -> Vector {
+      Parameters q = p;
+      q[model.anatomy.front().inputs[size_t(modes[size_t(j)])]] += h;
+      return force_of_contacts(model, x + h * nodal_field(*all[size_t(j)]), q, all).transpose() *
+             adjoint;
+    };
+    of_contacts.col(j) = (along(step_of_bones) - along(-step_of_bones)) / (2 * step_of_bones);
+  }
+  return result + 0.5 * (of_contacts + of_contacts.transpose());
 }
 
 }  // namespace genio

@@ -20,4 +20,10 @@ namespace genio {
 Matrix force_by_modes(const Model& model, const Positions& x, const Parameters& p,
                       std::span<const int> modes);
 
+/// adjoint . d2F/dm_j dm_k for each pair of these modes while the shape goes along with their
+/// fields: count x count. By second differences; of contacts by differences of their closed form.
+/// The model has the effect `anatomy`.
+Matrix force_by_mode_pairs(const Model& model, const Positions& x, const Parameters& p,
+                           std::span<const int> modes, const Vector& adjoint);
+
 }  // namespace genio

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "forward/model/at_anatomy.hpp"
+#include "forward/model/rest_derivatives.hpp"
 #include "inverse/target/comparison.hpp"
 #include "inverse/target/comparison_curvature.hpp"
 #include "inverse/target/head_pose.hpp"
@@ -103,6 +104,16 @@ Matrix pull_changes(const Model& model, const std::vector<Unknown>& unknowns, co
     changes.row(i) = (pulls(z + e) - pulls(z - e)).transpose() / (2 * unknown_step);
   }
   for (const Eigen::Index k : parts.second) changes.col(k) = changes.row(k).transpose();
+  if (parts.second.empty()) return changes;
+  std::vector<int> modes;
+  Vector slopes(Eigen::Index(parts.second.size()));
+  for (const Eigen::Index k : parts.second) {
+    const Unknown& u = unknowns[size_t(k)];
+    slopes[Eigen::Index(modes.size())] = u.shares.front() * u.slope(p[u.parameters.front()]);
+    modes.push_back(mode_of(model, u.parameters.front()));
+  }
+  changes(parts.second, parts.second) =
+      slopes.asDiagonal() * force_by_mode_pairs(model, x, p, modes, adjoint) * slopes.asDiagonal();
   return changes;
 }
 

@@ -18,7 +18,7 @@ Matrix held_by_unknown(const Model& model, const std::vector<Unknown>& unknowns,
                        const Parameters& p);
 
 /// adjoint . dP_j/dz_i, P the pulls, while the shape goes along with modes of anatomy; zero, and
-/// cheap, where forces are linear in the unknowns. Of two modes it is zero: little is strained.
+/// cheap, where forces are linear in the unknowns.
 Matrix pull_changes(const Model& model, const std::vector<Unknown>& unknowns, const Vector& z,
                     const Positions& x, const Parameters& p, const Vector& adjoint);
 

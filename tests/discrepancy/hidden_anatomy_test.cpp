@@ -67,11 +67,12 @@ TEST_F(ScoredAnatomy, SignatureIsWhatResidualsDoAsTheModeGrows) {
         EXPECT_TRUE(e) << e.message;
         return comparison(e.x).values;
       };
-      const double h = 1e-3;
+      const double h = 1e-4;
       const Vector quotient = (at(h) - at(-h)) / (2 * h);
       EXPECT_LT((quotient - s.middleRows(row, quotient.size()).col(0)).norm(),
                 1e-3 * quotient.norm())
-          << candidate.where;
+          << candidate.where << " condition " << k << ": " << quotient.transpose() << "\nagainst "
+          << s.middleRows(row, quotient.size()).col(0).transpose();
       row += quotient.size();
     }
   }

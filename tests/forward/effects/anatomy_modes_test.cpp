@@ -191,6 +191,33 @@ TEST(AnatomyModes, SensitivityIsThatOfEquilibriaSolvedAgain) {
   }
 }
 
+TEST(AnatomyModes, ForceOfATongueOnItsBonesIsDifferentiatedToo) {
+  ModelDescription d = read_description(test::generic_model());
+  const auto plain = plain_modes(d);
+  const Model m = build_model(with_modes(std::move(d), plain), "generic");
+  for (const auto& forces : {std::vector<std::pair<const char*, double>>{{"GGP", 3}, {"TRANS", 2}},
+                             {{"GGP", 14}, {"STY", 8}}}) {  // meets the palate
+    Parameters p = default_parameters(m);
+    for (const auto& [name, newtons] : forces) set_command(m, name, newtons, p);
+    const Equilibrium e = solved(m, p);
+    EXPECT_GT(m.contacts.front()->max_penetration(e.x, m.contacts.front().values(p)) +
+                  m.contacts.back()->max_penetration(e.x, m.contacts.back().values(p)),
+              0);
+    for (const char* mode : {"anatomy.size", "anatomy.pharynx"}) {
+      const int k[] = {parameter_index(m, mode)};
+      const Vector exact = force_derivatives(m, e.x, p, k).col(0);
+      const Vector held = held_motion(m, k).col(0);
+      const auto force_at = [&](double s) {
+        Parameters q = p;
+        q[k[0]] += s;
+        return force(m, e.x + s * held, q);
+      };
+      const double h = 1e-4;
+      EXPECT_LT(((force_at(h) - force_at(-h)) / (2 * h) - exact).norm(), 3e-5 * exact.norm());
+    }
+  }
+}
+
 TEST(AnatomyModes, StartsOfAnotherAnatomyLeadToTheSameShape) {
   const Model m = build_model(moded_block(), "block");
   const Equilibrium there = solved(m, pulled(m, -2.5, 1.5));
