@@ -9,6 +9,7 @@ namespace genio {
 namespace {
 
 constexpr double landmark_step = 2.5e-4;  // [m]
+constexpr double least_notch = 0.6;       // of the line below the tip [rad]
 constexpr double least_corner = 0.8;      // of a turn that is no bend [rad]
 constexpr double corner_way = 4e-3;       // on both sides of a corner [m]
 
@@ -59,7 +60,13 @@ TongueLandmarks tongue_landmarks(const SpeakerOutline& outline) {
       where_largest(0, 0.5 * line.length(), [&](double s) { return line.at(s).dot(Vec2(-1, -1)); });
   const double middle = 0.75 * line.length();
   const double tip = foremost(line, marks.genial + 2 * corner_way, middle);
-  marks.floor = first_corner(line, marks.genial + 1.5 * corner_way, tip - corner_way);
+  const double above = marks.genial + 1.5 * corner_way;
+  marks.floor = first_corner(line, above, tip - corner_way);
+  const auto left_turn = [&](double s) { return -right_turn(line, s); };
+  // Behind the floor of the mouth the line comes forward again. Where it does not, the tongue has
+  // no such floor, and it leaves the mandible where it turns forward.
+  const double notch = where_largest(marks.floor + 0.5 * corner_way, tip - corner_way, left_turn);
+  if (left_turn(notch) < least_notch) marks.floor = where_largest(above, marks.floor, left_turn);
   marks.tip = foremost(line, marks.floor + corner_way, middle);
   if (!(marks.genial < marks.floor && marks.floor < marks.tip && marks.tip < marks.vallecula))
     throw InputError(fmt::format(
