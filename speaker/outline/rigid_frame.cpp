@@ -8,7 +8,7 @@
 namespace genio {
 namespace {
 
-constexpr int frame_samples = 40;
+constexpr int frame_samples = 40, frame_rounds = 6;
 
 /// Samples at equal parts of a line's length.
 std::vector<Vec2> equally_spaced(const std::vector<Vec2>& points) {
@@ -89,7 +89,10 @@ std::vector<Vec2> front_of_palate(const std::vector<Vec2>& given) {
   return way.size() < 3 ? std::vector<Vec2>{} : way;
 }
 
-Similarity rigid_frame(const SpeakerOutline& outline, const ModelDescription& model) {
+namespace {
+
+/// One step there: what counts as the palate's front depends a little on how the outline is tilted.
+Similarity nearer_frame(const SpeakerOutline& outline, const ModelDescription& model) {
   if (outline.has(Segment::palate) && model.palate) {
     const std::vector<Vec2> theirs = front_of_palate(outline.segments.at(Segment::palate));
     const auto cuts = midsagittal_cut(*model.palate);
@@ -102,6 +105,18 @@ Similarity rigid_frame(const SpeakerOutline& outline, const ModelDescription& mo
   for (int a : model.midsagittal)
     ours.emplace_back(model.mesh.nodes[size_t(a)][0], model.mesh.nodes[size_t(a)][2]);
   return rigid_motion(equally_spaced(from_tip(outline.tongue())), equally_spaced(from_tip(ours)));
+}
+
+}  // namespace
+
+Similarity rigid_frame(const SpeakerOutline& outline, const ModelDescription& model) {
+  Similarity whole;
+  for (int round = 0; round < frame_rounds; ++round) {
+    const Similarity more = nearer_frame(moved_outline(outline, whole), model);
+    whole.shift = more(whole.shift);
+    whole.angle += more.angle;
+  }
+  return whole;
 }
 
 SpeakerOutline moved_outline(SpeakerOutline outline, const Similarity& to_model) {

@@ -9,6 +9,8 @@ namespace genio {
 namespace {
 
 constexpr double landmark_step = 2.5e-4;  // [m]
+constexpr double least_notch = 0.6;       // of the line below the tip [rad]
+constexpr double least_corner = 0.8;      // of a turn that is no bend [rad]
 constexpr double corner_way = 4e-3;       // on both sides of a corner [m]
 
 /// Where a measure is largest between two arc lengths.
@@ -23,6 +25,19 @@ double where_largest(double from, double to, const std::function<double(double)>
 double right_turn(const Polyline& line, double s) {
   const Vec2 in = line.at(s) - line.at(s - corner_way), out = line.at(s + corner_way) - line.at(s);
   return std::atan2(in[1] * out[0] - in[0] * out[1], in.dot(out));
+}
+
+/// The first corner to the right between two arc lengths: where the turn is at its largest after it
+/// has exceeded that of a bend, or the largest turn where none does. Behind the floor of the mouth
+/// a blunt tip may turn as sharply.
+double first_corner(const Polyline& line, double from, double to) {
+  double best = from, most = right_turn(line, from);
+  for (double s = from; s <= to; s += landmark_step) {
+    const double turn = right_turn(line, s);
+    if (turn > most) most = turn, best = s;
+    else if (most > least_corner && s > best + corner_way) break;
+  }
+  return best;
 }
 
 }  // namespace
@@ -45,8 +60,13 @@ TongueLandmarks tongue_landmarks(const SpeakerOutline& outline) {
       where_largest(0, 0.5 * line.length(), [&](double s) { return line.at(s).dot(Vec2(-1, -1)); });
   const double middle = 0.75 * line.length();
   const double tip = foremost(line, marks.genial + 2 * corner_way, middle);
-  marks.floor = where_largest(marks.genial + 1.5 * corner_way, tip - corner_way,
-                              [&](double s) { return right_turn(line, s); });
+  const double above = marks.genial + 1.5 * corner_way;
+  marks.floor = first_corner(line, above, tip - corner_way);
+  const auto left_turn = [&](double s) { return -right_turn(line, s); };
+  // Behind the floor of the mouth the line comes forward again. Where it does not, the tongue has
+  // no such floor, and it leaves the mandible where it turns forward.
+  const double notch = where_largest(marks.floor + 0.5 * corner_way, tip - corner_way, left_turn);
+  if (left_turn(notch) < least_notch) marks.floor = where_largest(above, marks.floor, left_turn);
   marks.tip = foremost(line, marks.floor + corner_way, middle);
   if (!(marks.genial < marks.floor && marks.floor < marks.tip && marks.tip < marks.vallecula))
     throw InputError(fmt::format(
