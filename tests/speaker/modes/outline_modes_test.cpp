@@ -169,8 +169,8 @@ TEST_F(SightOfASpeaker, FollowsWhereverTheHeadWas) {
     for (Vec2& q : line.points) q = away(q);
   const AnatomyEstimate there = estimate_anatomy(modes, sight);
   for (size_t i = 0; i < here.places.size(); ++i)
-    EXPECT_LT((away(here.places[i]) - there.places[i]).norm(), 0.5 * here.sd[2 * Eigen::Index(i)])
-        << i;
+    EXPECT_LT((away(here.places[i]) - there.places[i]).norm(), 1e-3)
+        << i;  // a turn is a little unlikely
 }
 
 TEST_F(SightOfASpeaker, OfAPalateAloneIsRefused) {
