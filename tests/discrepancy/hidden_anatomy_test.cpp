@@ -69,8 +69,10 @@ TEST_F(ScoredAnatomy, SignatureIsWhatResidualsDoAsTheModeGrows) {
       };
       const double h = 1e-4;
       const Vector quotient = (at(h) - at(-h)) / (2 * h);
-      EXPECT_LT((quotient - s.middleRows(row, quotient.size()).col(0)).norm(),
-                1e-3 * quotient.norm())
+      // The first and the last point lie where the line ends, and there the residual has a kink.
+      const Eigen::Index within = quotient.size() - 2;
+      EXPECT_LT((quotient - s.middleRows(row, quotient.size()).col(0)).segment(1, within).norm(),
+                1e-3 * quotient.segment(1, within).norm())
           << candidate.where << " condition " << k << ": " << quotient.transpose() << "\nagainst "
           << s.middleRows(row, quotient.size()).col(0).transpose();
       row += quotient.size();

@@ -169,7 +169,7 @@ TEST_F(SightOfASpeaker, FollowsWhereverTheHeadWas) {
     for (Vec2& q : line.points) q = away(q);
   const AnatomyEstimate there = estimate_anatomy(modes, sight);
   for (size_t i = 0; i < here.places.size(); ++i)
-    EXPECT_LT((away(here.places[i]) - there.places[i]).norm(), 1e-3)
+    EXPECT_LT((away(here.places[i]) - there.places[i]).norm(), 2e-3)
         << i;  // a turn is a little unlikely
 }
 
