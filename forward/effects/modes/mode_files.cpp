@@ -37,7 +37,8 @@ std::vector<Vec3> displacements(const VtkData& data, const std::string& mode,
 }
 
 void refuse_others(const VtkData& data, const std::string& path, const ModelDescription& d) {
-  for (const auto& [name, array] : data.point_data) {
+  for (const auto& entry : data.point_data) {
+    const std::string& name = entry.first;
     if (!name.starts_with(prefix)) continue;
     const auto is_it = [&](const AnatomyMode& m) { return prefix + m.name == name; };
     if (std::none_of(d.modes.begin(), d.modes.end(), is_it))
