@@ -43,7 +43,7 @@ double corner_energy(const Mat3& f) {
 CornerEnergy corner_energy_with_derivatives(const Mat3& f) {
   const Eigen::JacobiSVD<Mat3> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Mat3 &u = svd.matrixU(), &v = svd.matrixV();
-  const Vec3 s = svd.singularValues();  // det F > 0, so U V^T is a rotation
+  const Vec3& s = svd.singularValues();  // det F > 0, so U V^T is a rotation
   // A sum of g(s) = s^2 + 1/s^2 - 2 over the singular values.
   const Vec3 slope = 2 * (s.array() - s.array().pow(-3));
   CornerEnergy e;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "forward/base/text_file.hpp"
 #include "report/pictures/svg.hpp"
 #include "speaker/adaptation/model_line.hpp"
@@ -42,7 +44,8 @@ void draw_outlines(const std::vector<OutlineDrawing>& drawings, const std::strin
   const int rows = (int(drawings.size()) + columns - 1) / columns;
   Svg svg(columns * tile, rows * tile);
   for (size_t k = 0; k < drawings.size(); ++k)
-    draw_one(svg, drawings[k], tile * double(int(k) % columns), tile * double(int(k) / columns));
+    draw_one(svg, drawings[k], tile * double(int(k) % columns),
+             tile * std::floor(double(k) / columns));
   write_text(name + ".svg", svg.str());
   write_png(name + ".png", svg.str(), 1.5);
 }
