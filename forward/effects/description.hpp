@@ -43,6 +43,9 @@ struct ModelDescription {
   std::vector<int> midsagittal;
   std::optional<TriangleSurface> palate, jaw, hyoid;
   std::vector<AnatomyMode> modes;              ///< what the effect `anatomy` moves
+  /// How far the speaker's size may be from the model's, as a standard deviation of the logarithm:
+  /// among speakers 6 %, and little once the model is the speaker's own.
+  double scale_sd = 0.06;
   double density = 1040;                       ///< [kg/m^3] (Buchaillard et al. 2009)
   std::map<std::string, EffectTable> effects;  ///< absent table = absent effect
 };

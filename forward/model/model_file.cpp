@@ -157,11 +157,15 @@ ModelDescription read_description(const std::string& given) {
   r.only(r.root(), {"model", "landmarks", "curve", "surfaces", "muscle", "effect"});
   ModelDescription d;
   const auto& model = r.table(r.root(), "model");
-  r.only(model, {"name", "provenance", "mesh", "fibres", "density_kg_per_m3"});
+  r.only(model, {"name", "provenance", "mesh", "fibres", "density_kg_per_m3", "scale_sd"});
   d.name = r.text(model, "name");
   if (model.contains("provenance")) d.provenance = r.text(model, "provenance");
   if (const auto* density = model.get("density_kg_per_m3"))
     d.density = r.number(*density, "density_kg_per_m3");
+  if (const auto* sd = model.get("scale_sd")) {
+    d.scale_sd = r.number(*sd, "scale_sd");
+    if (!(d.scale_sd > 0 && d.scale_sd <= 1)) r.fail(*sd, "scale_sd must be above 0 and at most 1");
+  }
   read_muscles(r, d);
   read_mesh((folder / r.text(model, "mesh")).string(), d);
   read_fibres((folder / r.text(model, "fibres")).string(), d);
@@ -238,10 +242,11 @@ void write_description(const ModelDescription& d, const std::string& folder_name
       "[model]\nname = \"{}\"\nprovenance = \"{}\"\nmesh = \"mesh.vtu\"      # node array "
       "'support': 0 free, 1 jaw (fixed), 2 hyoid (horizontal plane)\n"
       "fibres = \"fibres.vtp\"  # one polyline a fibre; 'node' -1 is a fixed point\n"
-      "density_kg_per_m3 = {}\n\n[landmarks]  # node numbers, from 0\ntip = {}\n"
+      "density_kg_per_m3 = {}\nscale_sd = {}  # of the speaker's size, as a logarithm\n"
+      "\n[landmarks]  # node numbers, from 0\ntip = {}\n"
       "dorsum = {}\nroot = {}\n\n[curve]  # floor, tip, dorsum, root\nmidsagittal = [{}]\n",
-      d.name, d.provenance, d.density, d.landmarks.tip, d.landmarks.dorsum, d.landmarks.root,
-      fmt::join(d.midsagittal, ", "));
+      d.name, d.provenance, d.density, d.scale_sd, d.landmarks.tip, d.landmarks.dorsum,
+      d.landmarks.root, fmt::join(d.midsagittal, ", "));
   out.print("\n[surfaces]\n");
   for (auto [key, surface] : {std::pair{"palate", &d.palate}, {"jaw", &d.jaw}, {"hyoid", &d.hyoid}})
     if (*surface) {

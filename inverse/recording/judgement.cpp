@@ -15,6 +15,7 @@ namespace {
 
 constexpr double shortest_line = 0.12, longest_line = 0.16;  // of 41 speakers' tongues [m]
 constexpr double slack = 1.15;
+constexpr double far_size = 6;          // standard deviations of a size that is still believed
 constexpr double telling = 8;           // fall of the cost, in squares of standard deviations
 constexpr double poor_palate = 3e-3;    // [m]
 constexpr double out_of_reach = 15e-3;  // root mean square from the line at rest [m]
@@ -67,7 +68,10 @@ void add_common_faults(const Model& model, Judgement& j, double free_scale, doub
 
 std::pair<double, double> plausible_scales(const Model& model) {
   const double line = TongueLine(model).length();
-  return {line / longest_line / slack, line / shortest_line * slack};
+  std::pair scales{line / longest_line / slack, line / shortest_line * slack};
+  // A model that is the speaker's own knows his size better than the 41 do.
+  const double known = std::exp(far_size * model.description->scale_sd);
+  return {std::max(scales.first, 1 / known), std::min(scales.second, known)};
 }
 
 Judgement judge(const Model& model, const Registration& r,

@@ -14,6 +14,9 @@
 namespace genio {
 namespace {
 
+// What a tracing of the speaker leaves open of his size, as a logarithm.
+constexpr double own_scale_sd = 0.01;
+
 /// The area that a muscle's fibres fill: the volume of its elements over its fibres' mean length
 /// [m^2].
 double cross_section(const Muscle& muscle, const HexMesh& mesh) {
@@ -76,6 +79,7 @@ void carry_along(const ModelDescription& base, const ModelLine& line, const std:
         if (p.node < 0) p.anchor = bones.map.in_space(p.anchor, lateral);
   a.rest_overlap = rest_overlap(a.model);
   a.max_force_scale = scale_forces(base, a.model);
+  a.model.scale_sd = own_scale_sd;
   a.model.name = fmt::format("{} adapted to {}", base.name, who);
   a.model.provenance =
       fmt::format("genio adapt: {} by {}; base: {}", base.name, who, base.provenance);
@@ -124,7 +128,7 @@ Adaptation adapt_model(const ModelDescription& base, const std::string& source,
     LinePullOptions o;
     o.weight = solid_line_depth;
     const SurfaceRegistration r = register_surface(solid.mesh, there, [&](const Positions& x) {
-      return line_pulls(line, line.nodes, x, theirs, marks, o);
+      return line_pulls(line, line.nodes, x, theirs, plane.match, o);
     });
     a.model.mesh = r.mesh, a.min_jacobian = r.min_jacobian, a.surface_rms = r.rms;
     a.distances = line_distances(line, line.nodes, rest_positions(r.mesh), theirs, marks);

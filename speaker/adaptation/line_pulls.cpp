@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "speaker/adaptation/correspondence.hpp"
-
 namespace genio {
 namespace {
 
 constexpr double pull_spacing = 1e-3, window = 8e-3, measured_spacing = 5e-4;  // [m]
+constexpr double missed = 0.5e-3;  // of a notch's bottom by the line [m]
 
 std::vector<Vec2> line_places(const ModelLine& line, const std::vector<int>& node,
                               const Positions& x) {
@@ -17,16 +16,6 @@ std::vector<Vec2> line_places(const ModelLine& line, const std::vector<int>& nod
   for (size_t k = 0; k <= line.vallecula; ++k)
     places.emplace_back(x[3 * node[k]], x[3 * node[k] + 2]);
   return places;
-}
-
-/// The line's landmarks where it now lies. The tip is where the outline's is when this is drawn
-/// there, so it moves along as the two come together.
-TongueLandmarks current_marks(const ModelLine& line, const Polyline& ours) {
-  TongueLandmarks m;
-  m.genial = ours.arc()[line.genial], m.floor = ours.arc()[line.floor];
-  m.vallecula = ours.length();
-  m.tip = foremost(ours, m.floor, 0.5 * (m.floor + m.vallecula));
-  return m;
 }
 
 /// A normal metric: across the direction `t` fully, along it in part.
@@ -38,17 +27,25 @@ Mat3 across(const Vec2& t, double weight, double along) {
 }  // namespace
 
 std::vector<Pull> line_pulls(const ModelLine& line, const std::vector<int>& node,
-                             const Positions& x, const Polyline& outline,
-                             const TongueLandmarks& marks, const LinePullOptions& o) {
+                             const Positions& x, const Polyline& outline, const LineMatch& match,
+                             const LinePullOptions& o) {
   const Polyline ours(line_places(line, node, x));
-  const TongueLandmarks now = current_marks(line, ours);
-  const double first = marks.floor > 0 ? 0 : now.floor;  // of a free surface alone nothing before
-  std::vector<Pull> pulls;
-  const auto add = [&](double s, const Vec2& goal, const Mat3& metric) {
+  const auto position = [&](double s) {
     size_t k = 1;
     while (k + 1 < ours.arc().size() && s > ours.arc()[k]) ++k;
-    const double part = (s - ours.arc()[k - 1]) / (ours.arc()[k] - ours.arc()[k - 1]);
-    pulls.push_back({{node[k - 1], node[k], -1, -1},
+    return double(k - 1) + (s - ours.arc()[k - 1]) / (ours.arc()[k] - ours.arc()[k - 1]);
+  };
+  const auto arc_at = [&](double u) {
+    const size_t k = std::min(size_t(std::max(u, 0.0)), line.vallecula - 1);
+    return ours.arc()[k] + (u - double(k)) * (ours.arc()[k + 1] - ours.arc()[k]);
+  };
+  const double first = arc_at(match.node.front());  // of a free surface alone nothing before
+  std::vector<Pull> pulls;
+  const auto add = [&](double s, const Vec2& goal, const Mat3& metric) {
+    const double u = position(s);
+    const size_t k = std::min(size_t(u), line.vallecula - 1);
+    const double part = u - double(k);
+    pulls.push_back({{node[k], node[k + 1], -1, -1},
                      {1 - part, part, 0, 0},
                      Vec3(goal[0], 0, goal[1]),
                      metric});
@@ -59,30 +56,31 @@ std::vector<Pull> line_pulls(const ModelLine& line, const std::vector<int>& node
     for (int i = 0; i < parts; ++i) {
       const double s = ours.arc()[k - 1] + gap * (i + 0.5) / parts, weight = o.weight * gap / parts;
       if (s < first) continue;
-      const double there = same_place_along(now, marks, s);
+      const double there = match.to_outline(position(s));
       const Polyline::Foot foot = outline.foot(ours.at(s), there - window, there + window);
-      const bool same_way = outline.tangent(foot.s).dot(ours.tangent(s)) > 0;
-      if (o.by_length || !same_way)
+      if (outline.tangent(foot.s).dot(ours.tangent(s)) > 0)
+        add(s, foot.place, across(outline.tangent(foot.s), weight, o.along));
+      else
         add(s, outline.at(there), across(outline.tangent(there), weight, std::max(o.along, 0.3)));
-      else add(s, foot.place, across(outline.tangent(foot.s), weight, o.along));
     }
   }
   const int count = std::max(1, int(outline.length() / pull_spacing));
-  for (int i = 0; i < count && !o.by_length; ++i) {
+  for (int i = 0; i < count; ++i) {
     const double s = outline.length() * (i + 0.5) / count;
-    const double there = same_place_along(marks, now, s);
+    const double there = arc_at(match.to_line(s));
     const Polyline::Foot foot = ours.foot(outline.at(s), there - window, there + window);
     if (foot.s <= first || outline.tangent(s).dot(ours.tangent(foot.s)) < 0) continue;
     add(foot.s, outline.at(s),
         across(outline.tangent(s), o.weight * outline.length() / count, o.along));
   }
-  const double corner = o.weight * o.corner;
-  add(now.vallecula, outline.at(marks.vallecula), corner * Mat3::Identity());
-  add(now.floor, outline.at(marks.floor), corner * Mat3::Identity());
-  if (marks.floor > 0) {
-    add(now.genial, outline.at(marks.genial), corner * Mat3::Identity());
-    add(0, outline.at(0), corner * Mat3::Identity());
+  if (match.notch) {
+    const Vec2 bottom = outline.at(match.notch->at);
+    if (ours.foot(bottom).distance > missed)
+      add(arc_at(double(match.notch->node)), bottom, o.weight * o.notch * Mat3::Identity());
   }
+  const Mat3 corner = o.weight * o.corner * Mat3::Identity();
+  add(ours.length(), outline.at(outline.length()), corner);
+  add(first, outline.at(0), corner);
   return pulls;
 }
 
@@ -90,7 +88,6 @@ LineDistances line_distances(const ModelLine& line, const std::vector<int>& node
                              const Positions& x, const Polyline& outline,
                              const TongueLandmarks& marks) {
   const Polyline ours(line_places(line, node, x));
-  const TongueLandmarks now = current_marks(line, ours);
   LineDistances d;
   std::array<double, 2> squares = {0, 0}, counts = {0, 0};  // up to the floor, and from there
   const auto measure = [&](const Polyline& from, const Polyline& to, double floor) {
@@ -104,7 +101,7 @@ LineDistances line_distances(const ModelLine& line, const std::vector<int>& node
       d.most = std::max(d.most, distance);
     }
   };
-  measure(ours, outline, now.floor);
+  measure(ours, outline, ours.arc()[line.floor]);
   measure(outline, ours, marks.floor);
   d.floor_rms = counts[0] > 0 ? std::sqrt(squares[0] / counts[0]) : 0;
   d.free_rms = std::sqrt(squares[1] / std::max(1.0, counts[1]));

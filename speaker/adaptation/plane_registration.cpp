@@ -7,17 +7,20 @@
 #include <cmath>
 #include <map>
 
-#include "speaker/adaptation/correspondence.hpp"
-
 namespace genio {
 namespace {
 
 constexpr double pair_spacing = 3e-3, thickness = 5e-3;  // [m]
-// Bending against squared distances, from close to affine; the first that folds nothing is taken.
-constexpr std::array smoothings = {0.02, 0.1, 0.5, 2.0, 10.0};
+// Bending against squared distances, from affine to close; the last that folds nothing is taken.
+constexpr std::array smoothings = {10.0, 2.0, 0.5, 0.1, 0.02};
 constexpr double least_part = 0.25;  // of the affine stretch that a smooth map may come down to
 // A corner's energy against the distances of the line [m]: stiff at first, then soft.
-constexpr std::array stiffnesses = {3e-4, 1e-4, 3e-5, 3e-5, 1e-5, 1e-5, 1e-5, 1e-5};
+constexpr std::array stiffnesses = {3e-4, 1e-4, 3e-5, 3e-5, 1e-5, 1e-5, 3e-6, 3e-6, 3e-6};
+
+// Where the line is still farther off [m], tissue is softened again, this often by half.
+constexpr double close_enough = 0.3e-3;
+constexpr size_t most_softer = 5;
+constexpr double far_from_notch = 2e-3;  // of the place that belongs at its bottom [m]
 
 /// The faces as one layer of elements, so that solids and planes share their energies.
 struct Sheet {
@@ -82,9 +85,9 @@ PlaneRegistration register_plane(const ModelDescription& model, const ModelLine&
   const int n = int(sheet.numbers.size());
   const Polyline theirs(outline.tongue());
   const TongueLandmarks marks = tongue_landmarks(outline);
-  const std::vector<PlacePair> pairs =
-      correspondence(line, rest_positions(model.mesh), outline, pair_spacing);
   PlaneRegistration result;
+  LineMatch match = match_by_landmarks(line, rest_positions(model.mesh), outline, pair_spacing);
+  const std::vector<PlacePair> pairs = match.pairs(theirs);
   result.coarse = affine_map(pairs);
   const double stretch = result.coarse.derivative(pairs.front().from).determinant();
   if (!(stretch > 0.1 && stretch < 10))
@@ -93,11 +96,18 @@ PlaneRegistration register_plane(const ModelDescription& model, const ModelLine&
         "runs from the hyoid over mandible and tip to the vallecula",
         outline.name(), stretch));
   result.scale = std::sqrt(stretch);
+  result.match = match;
+  ThinPlateMap map = result.coarse;
   for (double smoothing : smoothings) {
-    const ThinPlateMap map(pairs, smoothing);
-    if (!keeps_corners(sheet.mesh, mapped(sheet.mesh, map), stretch)) continue;
-    result.coarse = map;
-    break;
+    map = slid_map(match, theirs, map, smoothing);
+    if (!keeps_corners(sheet.mesh, mapped(sheet.mesh, map), stretch)) break;
+    result.coarse = map, result.match = match;
+  }
+  if (const auto& notch = result.match.notch) {
+    const int node = line.nodes[notch->node];
+    const Vec3& rest = model.mesh.nodes[size_t(node)];
+    const Vec2 there = result.coarse(Vec2(rest[0], rest[2]));
+    if ((there - theirs.at(notch->at)).norm() > far_from_notch) result.match.lead_into_notch();
   }
   const HexMesh start = mapped(sheet.mesh, result.coarse);
   FoldFreeProblem problem{&sheet.mesh, corner_shapes(start), {}, 1, 0, 0.35, {}, {}};
@@ -105,12 +115,17 @@ PlaneRegistration register_plane(const ModelDescription& model, const ModelLine&
   for (size_t e = 0; e < start.elements.size(); ++e)  // two layers share what one face weighs
     problem.volumes.push_back(2 * element_volume(start, x, int(e)) / thickness);
   problem.supports.assign(start.nodes.size(), held_along(false, true, false));
-  for (size_t round = 0; round < stiffnesses.size(); ++round) {
-    problem.stiffness = stiffnesses[round];
-    problem.quality = stiffnesses[round];
-    LinePullOptions o;
-    o.by_length = round == 0;
-    problem.pulls = on_both_layers(line_pulls(line, sheet.line_node, x, theirs, marks, o), n);
+  for (size_t round = 0; round < stiffnesses.size() + most_softer; ++round) {
+    const size_t softer = round < stiffnesses.size() ? 0 : round - stiffnesses.size() + 1;
+    if (softer > 0) {
+      const LineDistances now = line_distances(line, sheet.line_node, x, theirs, marks);
+      if (std::max(now.free_rms, now.floor_rms) < close_enough) break;
+    }
+    problem.stiffness =
+        stiffnesses[std::min(round, stiffnesses.size() - 1)] / std::pow(2.0, softer);
+    problem.quality = problem.stiffness;
+    problem.pulls =
+        on_both_layers(line_pulls(line, sheet.line_node, x, theirs, result.match, {}), n);
     x = minimise_fold_free(problem, x, {.most_steps = 15, .small_step = 1e-5}).x;
   }
   result.numbers = sheet.numbers;

@@ -10,11 +10,13 @@ struct PlaneRegistration {
   std::vector<int> numbers;      ///< their numbers in the model
   ThinPlateMap coarse;           ///< smooth, and close to it; it folds no face
   double scale = 1;              ///< of lengths, by the affine part
+  LineMatch match;               ///< of the line and the outline
   LineDistances distances;
 };
 
-/// First a thin-plate map by landmarks and arc length between them, as close as it folds no face;
-/// then the faces as elastic tissue whose line is drawn to the outline and may slide along it.
+/// First a thin-plate map by landmarks and arc length between them, then one whose pairs slide to
+/// where it bends least, as close as it folds no face (Bookstein's sliding semilandmarks); then the
+/// faces as elastic tissue whose line is drawn to the outline and may slide along it.
 /// `outline` lies in the model's frame.
 PlaneRegistration register_plane(const ModelDescription& model, const ModelLine& line,
                                  const SpeakerOutline& outline);

@@ -8,7 +8,7 @@
 namespace genio {
 namespace {
 
-constexpr double tissue_stiffness = 1e-5;  // of a corner's energy against squared distances [m]
+constexpr double tissue_stiffness = 3e-6;  // of a corner's energy against squared distances [m]
 constexpr double wanted_ratio = 0.12;      // a little above the least one
 constexpr int most_repairs = 6;
 // What holds nodes at their places, against squared distances over volume.
@@ -95,7 +95,7 @@ SolidRegistration register_solid(const ModelDescription& model, const ModelLine&
   for (int round = 0; round <= most_repairs; ++round) {
     LinePullOptions o;
     o.weight = solid_line_depth;
-    problem.pulls = line_pulls(line, line_node, x, theirs, marks, o);
+    problem.pulls = line_pulls(line, line_node, x, theirs, plane.match, o);
     for (size_t a = 0; a < rest.nodes.size(); ++a)
       problem.pulls.push_back({{int(a), -1, -1, -1},
                                {1, 0, 0, 0},

@@ -13,11 +13,17 @@ double bending(double squared) { return squared > 0 ? 0.5 * squared * std::log(s
 
 }  // namespace
 
-ThinPlateMap::ThinPlateMap(const std::vector<PlacePair>& pairs, double smoothing) {
-  for (const PlacePair& p : pairs) centre_ += p.from / double(pairs.size());
+void ThinPlateMap::lay(const std::vector<Vec2>& from) {
+  for (const Vec2& p : from) centre_ += p / double(from.size());
   double spread = 0;
-  for (const PlacePair& p : pairs) spread += (p.from - centre_).squaredNorm();
-  size_ = std::sqrt(spread / double(pairs.size()));
+  for (const Vec2& p : from) spread += (p - centre_).squaredNorm();
+  size_ = std::sqrt(spread / double(from.size()));
+}
+
+ThinPlateMap::ThinPlateMap(const std::vector<PlacePair>& pairs, double smoothing) {
+  std::vector<Vec2> from;
+  for (const PlacePair& p : pairs) from.push_back(p.from);
+  lay(from);
   std::vector<Vec2> to;
   for (const PlacePair& p : pairs) {
     const Vec2 place = (p.from - centre_) / size_;
@@ -38,6 +44,36 @@ ThinPlateMap::ThinPlateMap(const std::vector<PlacePair>& pairs, double smoothing
   const Matrix solution = a.partialPivLu().solve(b);
   weights_ = solution.topRows(n).transpose();
   affine_ = solution.bottomRows(3).transpose();
+}
+
+ThinPlateMap::ThinPlateMap(const std::vector<SlidingPair>& pairs, double smoothing) {
+  std::vector<Vec2> from;
+  for (const SlidingPair& p : pairs) from.push_back(p.from);
+  lay(from);
+  for (const Vec2& p : from) places_.emplace_back((p - centre_) / size_);
+  const Eigen::Index n = Eigen::Index(pairs.size());
+  // Unknowns: both weights of each place, then both rows of the affine part. At the minimum
+  // smoothing times a weight is what its pair's metric makes of the way left.
+  Matrix a = Matrix::Zero(2 * n + 6, 2 * n + 6);
+  Vector b = Vector::Zero(2 * n + 6);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const SlidingPair& p = pairs[size_t(i)];
+    const Eigen::Matrix2d metric =
+        Eigen::Matrix2d::Identity() - (1 - p.held) * p.along * p.along.transpose();
+    const Vec3 place(1, places_[size_t(i)][0], places_[size_t(i)][1]);
+    for (Eigen::Index k = 0; k < n; ++k)
+      a.block<2, 2>(2 * i, 2 * k) =
+          bending((places_[size_t(i)] - places_[size_t(k)]).squaredNorm()) * metric;
+    a.block<2, 2>(2 * i, 2 * i) += smoothing * Eigen::Matrix2d::Identity();
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      a.block<2, 2>(2 * i, 2 * n + 2 * k) = place[k] * metric;
+      a.block<2, 2>(2 * n + 2 * k, 2 * i) = place[k] * Eigen::Matrix2d::Identity();
+    }
+    b.segment<2>(2 * i) = metric * p.to;
+  }
+  const Vector solution = a.partialPivLu().solve(b);
+  weights_ = Eigen::Map<const Eigen::Matrix2Xd>(solution.data(), 2, n);
+  affine_ = Eigen::Map<const Eigen::Matrix<double, 2, 3>>(solution.data() + 2 * n);
 }
 
 Vec2 ThinPlateMap::operator()(const Vec2& p) const {

@@ -12,6 +12,13 @@ struct PlacePair {
   Vec2 from, to;
 };
 
+/// A pair whose place may slide: a line tells across itself where a place goes, hardly along it.
+struct SlidingPair {
+  Vec2 from, to;
+  Vec2 along = Vec2::Zero();  ///< unit vector of the line; zero: it may not slide
+  double held = 0;            ///< part of the weight that counts along it all the same
+};
+
 /// The thin-plate spline (Bookstein 1989): of all maps that take every `from` to its `to`, the one
 /// of least bending energy; affine maps bend nothing. With `smoothing` the pairs are met within
 /// some distance instead and the map is stiffer. It need not be invertible: see least_stretch().
@@ -22,6 +29,9 @@ class ThinPlateMap {
   /// `pairs`: 3 or more, not all in one line; those whose `from` repeats are left out. `smoothing`
   /// weighs bending against squared distances, in units of the pairs' size.
   explicit ThinPlateMap(const std::vector<PlacePair>& pairs, double smoothing = 0);
+  /// The map that bends least of those that meet the pairs as far as they hold (Rohr et al. 2001,
+  /// anisotropic landmarks). `smoothing` above 0; 3 pairs or more with places of their own.
+  ThinPlateMap(const std::vector<SlidingPair>& pairs, double smoothing);
 
   Vec2 operator()(const Vec2& p) const;
   /// Midsagittal places move so; y is multiplied by `lateral`.
@@ -29,6 +39,9 @@ class ThinPlateMap {
   Eigen::Matrix2d derivative(const Vec2& p) const;
 
  private:
+  /// Centre and size of the places.
+  void lay(const std::vector<Vec2>& from);
+
   Vec2 centre_ = Vec2::Zero();
   double size_ = 1;
   std::vector<Vec2> places_;  ///< in units of the size, about the centre

@@ -46,6 +46,10 @@ double foremost(const Polyline& line, double from, double to) {
   return where_largest(from, to, [&](double s) { return line.at(s).dot(Vec2(-1, 0.5)); });
 }
 
+double deepest_notch(const Polyline& line, double from, double to) {
+  return where_largest(from, to, [&](double s) { return -right_turn(line, s); });
+}
+
 TongueLandmarks tongue_landmarks(const SpeakerOutline& outline) {
   const Polyline line(outline.tongue());
   TongueLandmarks marks;
@@ -65,8 +69,9 @@ TongueLandmarks tongue_landmarks(const SpeakerOutline& outline) {
   const auto left_turn = [&](double s) { return -right_turn(line, s); };
   // Behind the floor of the mouth the line comes forward again. Where it does not, the tongue has
   // no such floor, and it leaves the mandible where it turns forward.
-  const double notch = where_largest(marks.floor + 0.5 * corner_way, tip - corner_way, left_turn);
+  const double notch = deepest_notch(line, marks.floor + 0.5 * corner_way, tip - corner_way);
   if (left_turn(notch) < least_notch) marks.floor = where_largest(above, marks.floor, left_turn);
+  else marks.notch = notch;
   marks.tip = foremost(line, marks.floor + corner_way, middle);
   if (!(marks.genial < marks.floor && marks.floor < marks.tip && marks.tip < marks.vallecula))
     throw InputError(fmt::format(

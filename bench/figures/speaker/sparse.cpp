@@ -8,7 +8,9 @@
 #include <random>
 
 #include "forward/base/median.hpp"
+#include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
+#include "inverse/recording/registration/registration.hpp"
 #include "speaker/adaptation/outline_of_model.hpp"
 #include "speaker/modes/anatomy_estimate.hpp"
 #include "speaker/outline/outline_facing.hpp"
@@ -45,7 +47,8 @@ std::vector<int> hidden_points() {
   return hidden;
 }
 
-/// Places moved by rigid motion and scale so that those in sight lie nearest to a speaker's.
+/// Places moved by rigid motion and scale so that those in sight lie nearest to a speaker's, where
+/// it is told which of them belong together.
 std::vector<Vec2> scaled_onto(const OutlinePoints& from, const OutlinePoints& to) {
   std::vector<int> both;
   for (int i : points_in_sight())
@@ -65,6 +68,18 @@ std::vector<Vec2> scaled_onto(const OutlinePoints& from, const OutlinePoints& to
   return moved;
 }
 
+/// The model's places in the speaker's frame as recordings are registered: by what was seen alone,
+/// with no word of which point is which.
+std::vector<Vec2> registered_to(const std::vector<Vec2>& from, const Model& model,
+                                const TongueReach& reach, const SpeakerSight& sight) {
+  const Similarity s =
+      register_by_palate(model, reach, sight.lines[0].points, {sight.lines[1].points}).transform;
+  const Eigen::Rotation2Dd back(-s.angle);
+  std::vector<Vec2> moved;
+  for (const Vec2& p : from) moved.push_back(back * Vec2((p - s.shift) / s.scale));
+  return moved;
+}
+
 double rms_of(const std::vector<Vec2>& places, const OutlinePoints& truth,
               const std::vector<int>& which) {
   double square = 0;
@@ -75,9 +90,11 @@ double rms_of(const std::vector<Vec2>& places, const OutlinePoints& truth,
 }  // namespace
 
 Json sparse_figures(const BenchOptions& o, const Progress& progress) {
-  const ModelDescription model = read_description(o.model);
+  const ModelDescription description = read_description(o.model);
+  const Model model = build_model(description, o.model);
+  const TongueReach reach = reach_of(model);
   SpeakerOutline own = outline_of_model(
-      model, [](const Vec2& p) { return p; }, 1e-3);
+      description, [](const Vec2& p) { return p; }, 1e-3);
   const OutlinePoints generic = outline_points(own);
   std::vector<OutlinePoints> all;
   for (const std::string& speaker : outline_speakers(o.data))
@@ -85,15 +102,16 @@ Json sparse_figures(const BenchOptions& o, const Progress& progress) {
   std::vector<int> hidden = hidden_points(), shared;
   for (int i : hidden)
     if (generic.known[size_t(i)]) shared.push_back(i);
-  int held = 0, counted = 0, nearer = 0;
-  std::vector<double> ours, scaled, sd;
+  int held = 0, counted = 0, nearer = 0, nearer_than_told = 0;
+  std::vector<double> ours, scaled, told, sd;
   std::mt19937 random(o.seed);
   Json rows = Json::array();
   for (size_t k = 0; k < all.size(); ++k) {
     std::vector<OutlinePoints> others = all;
     others.erase(others.begin() + std::ptrdiff_t(k));
     const OutlineModes modes = modes_of_outlines(others);
-    const AnatomyEstimate e = estimate_anatomy(modes, in_sight(all[k], random));
+    const SpeakerSight sight = in_sight(all[k], random);
+    const AnatomyEstimate e = estimate_anatomy(modes, sight);
     int here = 0;
     for (int i : hidden)
       for (int axis = 0; axis < 2; ++axis) {
@@ -103,10 +121,13 @@ Json sparse_figures(const BenchOptions& o, const Progress& progress) {
       }
     held += here, counted += 2 * int(hidden.size());
     ours.push_back(rms_of(e.places, all[k], shared));
-    scaled.push_back(rms_of(scaled_onto(generic, all[k]), all[k], shared));
+    scaled.push_back(rms_of(registered_to(generic.places, model, reach, sight), all[k], shared));
+    told.push_back(rms_of(scaled_onto(generic, all[k]), all[k], shared));
     nearer += ours.back() < scaled.back();
+    nearer_than_told += ours.back() < told.back();
     rows.push_back({{"rms_mm", 1e3 * ours.back()},
                     {"scaled_rms_mm", 1e3 * scaled.back()},
+                    {"told_rms_mm", 1e3 * told.back()},
                     {"held", double(here) / (2.0 * double(hidden.size()))},
                     {"fit_rms_mm", 1e3 * e.rms},
                     {"kept", modes.kept}});
@@ -118,8 +139,10 @@ Json sparse_figures(const BenchOptions& o, const Progress& progress) {
   return {{"speakers", all.size()},
           {"sparse_coverage90", double(held) / counted},
           {"sparse_nearer", nearer},
+          {"sparse_nearer_than_told", nearer_than_told},
           {"sparse_rms_mm_median", 1e3 * median(ours)},
           {"scaled_rms_mm_median", 1e3 * median(scaled)},
+          {"told_rms_mm_median", 1e3 * median(told)},
           {"sparse_sd_mm_median", 1e3 * median(sd)},
           {"each", rows}};
 }

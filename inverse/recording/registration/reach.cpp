@@ -16,6 +16,7 @@ constexpr int line_points = 60;
 TongueReach reach_of(const Model& model, const std::function<void()>& on_step) {
   const TongueLine line(model);
   TongueReach reach{line.sample(at_anatomy(model)->rest, line_points), {}};
+  reach.scale_sd = model.description->scale_sd;
   const Matrix modes = principal_modes(postures_of(model, on_step), 2, [&](const Positions& x) {
     Vector row(2 * line_points);
     const auto points = line.sample(x, line_points);

@@ -26,6 +26,7 @@ RegistrationProblem problem_of(const TongueReach& reach,
   for (const auto& contour : thin(contours, enough_frames))
     problem.contours.push_back(thin(contour, enough_points));
   problem.rest = reach.rest, problem.on_step = reach.on_step;
+  problem.scale_sd = reach.scale_sd;
   return problem;
 }
 

@@ -41,7 +41,7 @@ Beliefs beliefs(const RegistrationProblem& problem, const std::vector<double>& v
   Beliefs b;
   const auto& plane = problem.marks.bite_plane;
   const double turn = v[0] + (plane ? plane->tilt : 0), turn_sd = plane ? plane->sd : tilt_sd;
-  const double scale_sd = problem.free ? free_scale_sd : usual_scale_sd;
+  const double scale_sd = problem.free ? free_scale_sd : problem.scale_sd;
   b.curvature(0, 0) = 1 / (turn_sd * turn_sd), b.curvature(1, 1) = 1 / (scale_sd * scale_sd);
   b.slope[0] = turn * b.curvature(0, 0), b.slope[1] = v[1] * b.curvature(1, 1);
   b.cost = turn * b.slope[0] + v[1] * b.slope[1];

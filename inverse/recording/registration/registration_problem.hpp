@@ -12,7 +12,6 @@ namespace genio {
 constexpr double palate_sd = 2e-3;       // of a trace about the model's palate [m]
 constexpr size_t most_trace = 42;        // independent points of a palate trace
 constexpr double contours_weight = 60;   // independent points of all contours beside a palate
-constexpr double usual_scale_sd = 0.06;  // of the logarithm
 constexpr double tilt_sd = 20 * std::numbers::pi / 180;
 
 /// A recording's palate trace and contours against lines of the model. A point v is (tilt,
@@ -22,6 +21,7 @@ struct RegistrationProblem {
   std::vector<std::vector<Vec2>> contours;
   std::vector<Vec2> rest;      ///< the tongue's line at rest
   double weight = 0;           ///< independent points of all contours
+  double scale_sd = 0.06;      ///< of the logarithm
   bool free = false;           ///< nothing is believed of the scale
   HeadMarks marks;             ///< a bite plane is horizontal in the model
   Vec2 centre = Vec2::Zero();  ///< rotation and scale act about it

@@ -12,7 +12,7 @@ namespace {
 constexpr double bent_sd = 2.5e-3;        // of a scan about a surface that is bent to it [m]
 constexpr double palate_sd = 2e-3;        // of a palate about the model's [m]
 constexpr double independent_trace = 42;  // points of a palate
-constexpr double scale_sd = 0.06, free_scale_sd = 1;  // of the logarithm
+constexpr double free_scale_sd = 1;       // of the logarithm
 constexpr double turn_sd = 20 * std::numbers::pi / 180;
 constexpr double enough = 1e-3;  // fall of the cost in a step that is worth another
 
@@ -60,7 +60,7 @@ Weights weights_of(const ScanProblem& p, const Place& at) {
 }
 
 double scale_weight(const ScanProblem& p) {
-  const double sd = p.free ? free_scale_sd : scale_sd;
+  const double sd = p.free ? free_scale_sd : p.reach.scale_sd;
   return 1 / (sd * sd);
 }
 

@@ -89,6 +89,7 @@ Vec3 mean(const std::vector<Vec3>& points) {
 
 SurfaceReach surface_reach_of(const Model& model) {
   SurfaceReach reach{facets(model.surface), at_anatomy(model)->rest, {}};
+  reach.scale_sd = model.description->scale_sd;
   std::vector<int> nodes;
   for (const Quad& q : model.surface) nodes.insert(nodes.end(), q.begin(), q.end());
   std::sort(nodes.begin(), nodes.end());

@@ -23,6 +23,7 @@ struct SurfaceReach {
   std::vector<Facet> facets;
   Positions rest;                ///< [m]
   std::vector<Positions> modes;  ///< displacements of one standard deviation each [m]
+  double scale_sd = 0.06;        ///< of the speaker's size, see ModelDescription
 };
 
 /// Takes a static solve a muscle.

@@ -46,7 +46,7 @@ TEST_F(DeviceRequest, IsLaidBesideTheModelByItsPalate) {
   EXPECT_LT(json["palate_rms_mm"], 1);
   EXPECT_NEAR(reply.scale, 1, 0.05);
   EXPECT_NEAR(std::abs(reply.tilt_deg), 12, 3);
-  EXPECT_EQ(json["tilt_deg"], reply.tilt_deg);
+  EXPECT_DOUBLE_EQ(json["tilt_deg"], reply.tilt_deg);
   EXPECT_GT(reply.shift_sd_mm, 0);
   EXPECT_EQ(reply.other,
             (std::vector<std::string>{"head_pose.x", "head_pose.z", "head_pose.turn"}));

@@ -47,6 +47,34 @@ TEST(ThinPlate, DerivativeIsTheMapsSlope) {
   }
 }
 
+TEST(ThinPlate, MeetsPairsThatMayNotSlideAsSmoothOnesDo) {
+  const double smoothing = 0.1;
+  std::vector<SlidingPair> held, fully_held;
+  for (const PlacePair& p : pairs_of(bent)) {
+    held.push_back({p.from, p.to});
+    fully_held.push_back({p.from, p.to, Vec2(0.6, 0.8), 1});
+  }
+  const ThinPlateMap smooth(pairs_of(bent), smoothing);
+  const Vec2 p(0.021, 0.017);
+  for (const auto& pairs : {held, fully_held})
+    EXPECT_LT((ThinPlateMap(pairs, smoothing)(p) - smooth(p)).norm(), 1e-12);
+}
+
+TEST(ThinPlate, SlidingPairsLeaveAnAffineMapAsItIs) {
+  // Each place is off along its own direction, as far as it likes.
+  const auto affine = [](const Vec2& p) {
+    return Vec2(0.3 + 1.2 * p[0] - 0.1 * p[1], 0.2 * p[0] + 0.9 * p[1]);
+  };
+  std::vector<SlidingPair> pairs;
+  for (const PlacePair& p : pairs_of(affine)) {
+    const double turn = 300 * p.from[0] + 77 * p.from[1];
+    const Vec2 along(std::cos(turn), std::sin(turn));
+    pairs.push_back({p.from, p.to + 4e-3 * std::sin(3 * turn) * along, along});
+  }
+  const Vec2 p(0.021, 0.017);
+  EXPECT_LT((ThinPlateMap(pairs, 1e-3)(p) - affine(p)).norm(), 1e-9);
+}
+
 TEST(ThinPlate, SmoothingBendsLess) {
   const Vec2 p(0.02, 0.018);
   const double close = std::abs(ThinPlateMap(pairs_of(bent))(p)[0] - bent(p)[0]);
