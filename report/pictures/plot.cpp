@@ -10,8 +10,9 @@
 namespace genio {
 namespace {
 
-constexpr const char* colours[] = {"#1f5fa8", "#c8443a", "#2f8f5b",
-                                   "#8a5fb0", "#b07d2b", "#555555"};
+constexpr const char* colours[] = {"#1f5fa8", "#c8443a", "#2f8f5b", "#8a5fb0",
+                                   "#b07d2b", "#555555", "#1aa3b8", "#d1589b",
+                                   "#86a816", "#6b3a1e", "#8fb4e3", "#f0a080"};
 
 /// Steps of 1, 2 or 5 times a power of ten, about six over the range.
 double nice_step(double range) {
