@@ -36,7 +36,7 @@ std::string plot(const std::string& title, const std::string& x_label, const std
   const Eigen::Vector2d margin = 0.06 * (high - low).cwiseMax(1e-9);
   low -= margin, high += margin;
   Svg svg(720, 430 + 16.0 * double(notes.size()));
-  svg.text(70, 26, title, 15, "start", "#111");
+  svg.text(70, 22, title, 15, "start", "#111");
   const Axes axes{low[0], high[0], low[1], high[1], 70, 40, 420, 330};
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
   const auto label = [](double v, bool log) {

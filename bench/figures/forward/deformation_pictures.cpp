@@ -22,7 +22,7 @@ void write_picture(const std::string& path, const std::string& svg) {
 SidePanel panel(const DeformationRow& row) {
   std::string below = fmt::format("{:.4g} N a side", row.force);
   if (!row.pressing.empty()) below += ", touches bone";
-  below += "; lips left, [mm]";
+  below += "; lips left [mm]";
   return {below,
           {{"large deformation", blue, row.large.x}, {"small deformation", red, row.small.x}}};
 }
