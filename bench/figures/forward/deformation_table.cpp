@@ -69,7 +69,7 @@ std::string row_text(const Json& r) {
     line += number(large, key, 9, 3) + number(small, key, 9, 3);
   line += difference_text(r["difference"]) + difference_text(r["difference_without_contact"]) +
           number(small, "volume_percent", 8, 2) + number(small, "least_corner_ratio", 7, 2) +
-          number(small, "folded_elements", 5, 0);
+          number(small, "folded_elements", 6, 0) + number(large, "folded_elements", 6, 0);
   for (const auto& [contact, force] : r["presses_N"].items())
     line += fmt::format("  {} {:.2g} N", contact, force.get<double>());
   const std::string message = r["message"];
@@ -113,11 +113,12 @@ Json deformation_limits(const std::vector<Json>& rows) {
 std::string deformation_text(const Json& result) {
   std::string text = fmt::format(
       "{}, large and small deformation; without contact once more\n\n"
-      "{:13}{:^18}{:^18}{:^28}{:^28}{:^20}\n"
-      "{:<6}{:>7}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>9}{:>10}{:>8}{:>7}{:>5}  {}\n",
+      "{:13}{:^18}{:^18}{:^28}{:^28}{:^21}{:>6}\n"
+      "{:<6}{:>7}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}{:>9}{:>9}{:>10}{:>8}{:>7}{:>6}{:>6}  {}\n",
       result["model"].get<std::string>(), "", "moved at most [mm]", "tip moved [mm]", "apart [mm]",
-      "without contact [mm]", "small", "muscle", "N/side", "large", "small", "large", "small",
-      "rms", "most", "rms", "rms", "most", "rms", "volume", "ratio", "fold", "touches");
+      "without contact [mm]", "small", "large", "muscle", "N/side", "large", "small", "large",
+      "small", "rms", "most", "rms", "rms", "most", "rms", "volume", "ratio", "fold", "fold",
+      "presses");
   for (const Json& row : result["rows"]) text += row_text(row);
   text += fmt::format("\n{:<8}{:>10}{:>10}{:>14}{:>10}{:>14}\n", "apart by", "10 %", "1 mm",
                       "alone: 10 %", "1 mm", "touches from");
