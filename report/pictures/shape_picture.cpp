@@ -14,10 +14,10 @@ namespace {
 
 Axes framed(Svg& svg, Axes axes, const std::string& below) {
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
-  const double step = axes.y1 - axes.y0 < 150 ? 20 : 50;  // [mm]
-  for (double z = step * std::ceil((axes.y0 + 4) / step); z < axes.y1 - 4; z += step) {
+  const int step = axes.y1 - axes.y0 < 150 ? 20 : 50;  // [mm]
+  for (int z = step * int(std::ceil((axes.y0 + 4) / step)); z < axes.y1 - 4; z += step) {
     svg.line(axes.left, axes.py(z), axes.left + axes.width, axes.py(z), {"#eee"});
-    svg.text(axes.left - 6, axes.py(z) + 4, fmt::format("{}", z + 0.0), 11, "end", "#777");
+    svg.text(axes.left - 6, axes.py(z) + 4, fmt::format("{}", z), 11, "end", "#777");
   }
   svg.text(axes.left + axes.width / 2, axes.top + axes.height + 20, below, 12, "middle", "#555");
   return axes;

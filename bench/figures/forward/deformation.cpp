@@ -34,7 +34,7 @@ Json run_deformation(const BenchOptions& o, const Progress& progress) {
     progress(
         fmt::format("{}: {} forces up to {:.4g} N a side", muscle, rows.size(), rows.back().force));
   }
-  const Json result = {{"model", pair.model().name}, {"rows", all}, {"limits", limits}};
+  Json result = {{"model", pair.model().name}, {"rows", all}, {"limits", limits}};
   if (!o.out.empty()) {
     draw_differences(all, o.out);
     write_text(o.out + "/deformation.json", result.dump(2) + "\n");
