@@ -17,8 +17,8 @@ Json run_deformation(const BenchOptions& o, const Progress& progress) {
   DeformationPair pair(read_description(o.model), o.model);
   std::vector<std::string> muscles = both_sided_muscles(pair.model());
   if (!o.only.empty()) {
-    maximum_a_side(pair.model(), o.only);  // refuses what is no muscle
-    muscles = {o.only};
+    command_parameters(pair.model(), o.only);  // refuses what is no muscle
+    muscles = {bilateral_name(o.only)};
   }
   if (!o.out.empty()) std::filesystem::create_directories(o.out);
   Json all = Json::array(), limits = Json::array();
