@@ -11,6 +11,7 @@
 #include "bench/experiments/ultrasound.hpp"
 #include "bench/figures/corpus.hpp"
 #include "bench/figures/discover_bench.hpp"
+#include "bench/figures/forward/deformation.hpp"
 #include "bench/figures/forward/dynamic.hpp"
 #include "bench/figures/forward/forward.hpp"
 #include "bench/figures/forward/grenoble.hpp"
@@ -45,7 +46,7 @@ const std::vector<Benchmark>& benchmarks() {
       inverse_bench(),    calibration_bench(), reach_bench(),      peer_bench(),
       gesture_bench(),    discover_bench(),    service_bench(),    recordings_bench(),
       corpus_bench(),     ultrasound_bench(),  grenoble_bench(),   grenoble_gravity_bench(),
-      seed_suite_bench(), indent_bench(),      speaker_bench()};
+      seed_suite_bench(), deformation_bench(), indent_bench(),     speaker_bench()};
   return all;
 }
 

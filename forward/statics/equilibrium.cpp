@@ -147,6 +147,22 @@ void continuation(const Model& model, const Parameters& p, Workspace& ws,
   result.parameters = p;
 }
 
+/// The model at the anatomy of p; null, and the reason in `result`, where there is none.
+std::shared_ptr<const Model> checked_model(const Model& model, const Parameters& p,
+                                           Equilibrium& result) {
+  result.parameters = p;
+  if (!p.allFinite()) {
+    result.message = "a parameter is not finite";
+    return nullptr;
+  }
+  try {
+    return at_anatomy(model, p);
+  } catch (const InputError& error) {
+    result.message = error.what();
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 Workspace::Workspace(const Model& model)
@@ -173,19 +189,9 @@ Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Pos
   ws.check(model);
   Equilibrium result;
   const int before = ws.cholesky.factorizations();
-  result.parameters = p;
   result.x = start;
-  if (!p.allFinite()) {
-    result.message = "a parameter is not finite";
-    return result;
-  }
-  std::shared_ptr<const Model> here;
-  try {
-    here = at_anatomy(model, p);
-  } catch (const InputError& error) {
-    result.message = error.what();
-    return result;
-  }
+  const auto here = checked_model(model, p, result);
+  if (!here) return result;
   if (model.shapes) result.x = carried(model, start, p);
   solve_softly(*here, ws, options, result);
   if (!result && options.max_load_steps > 0) continuation(*here, p, ws, options, result);
@@ -195,10 +201,11 @@ Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Pos
 
 Equilibrium solve_small_deformation(const Model& given, const Parameters& p, Workspace& ws) {
   ws.check(given);
-  const auto here = at_anatomy(given, p);
-  const Model& model = *here;
   Equilibrium result;
-  result.parameters = p;
+  const auto here = checked_model(given, p, result);
+  if (!here) return result;
+  const Model& model = *here;
+  result.x = model.rest;
   const int before = ws.cholesky.factorizations();
   Newton newton(model, p, ws);
   // The commands' geometric stiffness belongs to the large-deformation framework.
@@ -210,7 +217,7 @@ Equilibrium solve_small_deformation(const Model& given, const Parameters& p, Wor
     result.message = "the stiffness of the rest shape is not positive definite";
     return result;
   }
-  result.x = model.rest + model.dofs.expand(ws.cholesky.solve(newton.at(model.rest).force));
+  result.x += model.dofs.expand(ws.cholesky.solve(newton.at(model.rest).force));
   result.status = SolveStatus::converged;
   result.energy = newton.potential(result.x);
   result.newton_iterations = 1;

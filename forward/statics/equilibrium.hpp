@@ -62,8 +62,12 @@ struct Equilibrium {
 Equilibrium solve_equilibrium(const Model& model, const Parameters& p, const Positions& start,
                               Workspace& ws, const SolveOptions& options = {});
 
-/// Small-deformation framework: the displacement that the stiffness of the rest shape gives to the
-/// forces in the rest shape.
+/// Small-deformation framework (Gerard, Perrier & Payan, section 5.1): x = rest + K0^-1 f by one
+/// linear solve, 3 n [m]. K0 is the stiffness of the rest shape without loads [N/m]; f are all
+/// nodal forces there, of commands, gravity and other loads [N]. A contact takes part only where it
+/// presses at rest already. Turned parts swell, since a linear strain takes a turn for a stretch.
+/// `residual` is that of the linear system, 0. The energy is infinite where tissue is inside out. A
+/// status tells of parameters that are not finite and of a K0 that is not positive definite.
 Equilibrium solve_small_deformation(const Model& given, const Parameters& p, Workspace& ws);
 
 }  // namespace genio

@@ -10,8 +10,9 @@
 namespace genio {
 namespace {
 
-constexpr const char* colours[] = {"#1f5fa8", "#c8443a", "#2f8f5b",
-                                   "#8a5fb0", "#b07d2b", "#555555"};
+constexpr const char* colours[] = {"#1f5fa8", "#c8443a", "#2f8f5b", "#8a5fb0",
+                                   "#b07d2b", "#555555", "#1aa3b8", "#d1589b",
+                                   "#86a816", "#6b3a1e", "#8fb4e3", "#f0a080"};
 
 /// Steps of 1, 2 or 5 times a power of ten, about six over the range.
 double nice_step(double range) {
@@ -35,7 +36,7 @@ std::string plot(const std::string& title, const std::string& x_label, const std
   const Eigen::Vector2d margin = 0.06 * (high - low).cwiseMax(1e-9);
   low -= margin, high += margin;
   Svg svg(720, 430 + 16.0 * double(notes.size()));
-  svg.text(70, 26, title, 15, "start", "#111");
+  svg.text(70, 22, title, 15, "start", "#111");
   const Axes axes{low[0], high[0], low[1], high[1], 70, 40, 420, 330};
   svg.rect(axes.left, axes.top, axes.width, axes.height, {"#ccc"});
   const auto label = [](double v, bool log) {

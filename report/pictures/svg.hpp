@@ -16,7 +16,8 @@ struct Axes {
 };
 
 /// Colours that mean the same in every picture.
-inline constexpr const char *grey = "#9aa0a6", *blue = "#1f5fa8", *bone = "#6b5b45";
+inline constexpr const char *grey = "#9aa0a6", *blue = "#1f5fa8", *red = "#c8443a",
+                            *bone = "#6b5b45";
 
 /// Metres to millimetres.
 std::vector<Eigen::Vector2d> in_mm(std::vector<Eigen::Vector2d> points);

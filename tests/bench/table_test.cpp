@@ -32,9 +32,9 @@ TEST(BenchmarkTable, GivesEachBenchmarkANameOfItsOwnAndALineOfHelp) {
 }
 
 TEST(BenchmarkTable, HoldsTheBenchmarksOfTheInterface) {
-  for (const char* name :
-       {"forward", "dynamic", "inverse", "service", "discover", "corpus", "robustness",
-        "verification", "reach", "peer", "gesture", "ultrasound", "grenoble", "grenoble-gravity"})
+  for (const char* name : {"forward", "dynamic", "inverse", "service", "discover", "corpus",
+                           "robustness", "verification", "reach", "peer", "gesture", "ultrasound",
+                           "grenoble", "grenoble-gravity", "deformation"})
     EXPECT_EQ(benchmark(name).name, name);
 }
 

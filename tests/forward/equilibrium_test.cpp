@@ -76,19 +76,6 @@ TEST(Equilibrium, TissueThatSoftensWithoutEndFailsInsteadOfSearchingOn) {
   }
 }
 
-TEST(Equilibrium, SmallDeformationAgreesForSmallForces) {
-  auto d = test::small_block();
-  d.effects.erase("gravity");
-  const Model m = build_model(d, "block");
-  Workspace ws(m);
-  Parameters p = default_parameters(m);
-  set_command(m, "GGP_L", 1e-4, p);
-  const auto large = solve_equilibrium(m, p, m.rest, ws);
-  const auto small = solve_small_deformation(m, p, ws);
-  ASSERT_TRUE(large);
-  EXPECT_LT((large.x - small.x).norm(), 0.01 * (large.x - m.rest).norm());
-}
-
 TEST(Sensitivity, IsTheDerivativeOfTheEquilibrium) {
   const Model m = test::small_model();
   Workspace ws(m);
