@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json experiment_json(const Experiment& e) {
+Json experiment_json(const IndentationExperiment& e) {
   Json j = {{"indenter", to_string(e.indenter)},
             {"radius_mm", 1e3 * e.radius},
             {"thickness_mm", 1e3 * e.thickness},
@@ -43,7 +43,8 @@ void add_constants(Json& j, const TissueFit& fit) {
 
 }  // namespace
 
-std::string fit_json(const Experiment& e, const ForceData& data, const TissueFit& fit, int indent) {
+std::string fit_json(const IndentationExperiment& e, const ForceData& data, const TissueFit& fit,
+                     int indent) {
   Json j = {{"status", fit ? "converged" : "failed"},
             {"message", fit.message},
             {"experiment", experiment_json(e)},

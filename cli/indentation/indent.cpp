@@ -27,7 +27,7 @@ struct IndentCommand {
 };
 
 /// The command line's notes as a file has them, so that the file alone is enough.
-std::string notes_text(const Experiment& e, const YeohConstants& mucosa) {
+std::string notes_text(const IndentationExperiment& e, const YeohConstants& mucosa) {
   std::string text = fmt::format(
       "# indenter = {}\n# radius_mm = {:g}\n# thickness_mm = {:g}\n# half_width_mm = {:g}\n"
       "# poisson_ratio = {:g}\n",
@@ -42,7 +42,7 @@ std::string notes_text(const Experiment& e, const YeohConstants& mucosa) {
 int simulate(const IndentCommand& o) {
   if (!(o.a20 >= 0 && o.scatter >= 0 && o.scatter < 1))
     throw InputError("--a20-Pa, --scatter: expected 0 or more, and less than 1 of the scatter");
-  const Experiment e = experiment_of(o.notes, o.layers == 2);
+  const IndentationExperiment e = experiment_of(o.notes, o.layers == 2);
   const BlockTissue tissue{{o.a10, o.a20}, mucosa_of(o.notes)};
   const ForceData d =
       simulated_data(e, tissue, 1e-3 * o.depth_mm, o.rows, o.scatter, unsigned(o.seed));
@@ -89,7 +89,7 @@ void write_into(const IndentCommand& o, ModelDescription d, const TissueFit& fit
   write_description(d, o.into);
 }
 
-void print_fit(const Experiment& e, const TissueFit& fit) {
+void print_fit(const IndentationExperiment& e, const TissueFit& fit) {
   for (const FittedConstant& c : fit.constants)
     fmt::print("{:<11} {:8.1f} Pa, sd {:.1f}, 90 % within {:.1f} to {:.1f}{}\n", c.name, c.value,
                c.sd, c.low, c.high, c.at_bound ? ", at its bound" : "");
@@ -105,7 +105,7 @@ void print_fit(const Experiment& e, const TissueFit& fit) {
 int fit(const IndentCommand& o) {
   const ForceFile file = read_force_file(o.data);
   const ExperimentNotes notes = merged(o.notes, file.notes);
-  const Experiment e = experiment_of(notes, o.layers == 2);
+  const IndentationExperiment e = experiment_of(notes, o.layers == 2);
   if (!o.quiet)
     print_line(
         fmt::format("{} of {:g} mm on {:g} mm of tissue{}{}", to_string(e.indenter), 1e3 * e.radius,

@@ -34,7 +34,7 @@ std::vector<double> graded(double from, double to, double first, double growth, 
 /// Plane points by ring: the axis, squares of the core, circles, the outline of the block.
 class Rings {
  public:
-  Rings(const Experiment& e, double radius, const BlockGrid& grid)
+  Rings(const IndentationExperiment& e, double radius, const BlockGrid& grid)
       : core_(grid.core), width_(e.half_width) {
     const double step = std::numbers::pi / (4 * core_);
     as_circle_ = std::sqrt(step / std::sin(step));
@@ -98,7 +98,7 @@ class Rings {
 };
 
 /// Heights of the nodes from the bottom to the top, and the first of the mucosa.
-std::pair<std::vector<double>, int> heights(const Experiment& e, double contact,
+std::pair<std::vector<double>, int> heights(const IndentationExperiment& e, double contact,
                                             const BlockGrid& grid) {
   const double h = e.thickness;
   double first = std::min(1.5 * grid.edge * contact, h / 5);
@@ -152,7 +152,8 @@ PlaneMesh plane_mesh(const Rings& rings, int core) {
 
 }  // namespace
 
-IndentedBlock indented_block(const Experiment& e, double contact, const BlockGrid& grid) {
+IndentedBlock indented_block(const IndentationExperiment& e, double contact,
+                             const BlockGrid& grid) {
   const PlaneMesh plane = plane_mesh(Rings(e, contact, grid), grid.core);
   const auto [z, first_of_mucosa] = heights(e, contact, grid);
   IndentedBlock b;

@@ -30,6 +30,7 @@ struct IndentedBlock {
 
 /// `contact`: radius that the cells are made for [m], the indenter's or, of a sphere, of what
 /// touches at the greatest depth.
-IndentedBlock indented_block(const Experiment& experiment, double contact, const BlockGrid& grid);
+IndentedBlock indented_block(const IndentationExperiment& experiment, double contact,
+                             const BlockGrid& grid);
 
 }  // namespace genio

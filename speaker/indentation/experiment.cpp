@@ -33,7 +33,7 @@ Indenter indenter_of(const std::string& name) {
   throw InputError(fmt::format("indenter: '{}'; expected punch, sphere or pressure", name));
 }
 
-void check(const Experiment& e) {
+void check(const IndentationExperiment& e) {
   expect_range("radius of the indenter", e.radius, 1e-4, 0.1);
   expect_range("thickness of the block", e.thickness, 1e-4, 10);
   expect_range("half width of the block", e.half_width, 2 * e.radius, 10);

@@ -21,7 +21,7 @@ struct YeohConstants {
 
 /// A block that is bonded to a rigid plate below and free at its sides, of which the indenter
 /// presses the middle of the top.
-struct Experiment {
+struct IndentationExperiment {
   Indenter indenter = Indenter::punch;
   double radius = 5e-3;          ///< of the indenter [m]
   double thickness = 20e-3;      ///< of the block, with its mucosa [m]
@@ -31,7 +31,7 @@ struct Experiment {
 };
 
 /// Throws InputError naming what no experiment has, with what was expected.
-void check(const Experiment& experiment);
+void check(const IndentationExperiment& experiment);
 
 /// Bulk modulus over a10 for a Poisson ratio at rest: the shear modulus is 2 a10.
 double bulk_over_a10(double poisson_ratio);

@@ -32,7 +32,7 @@ SolveOptions options() {
 }
 
 /// Whether force and slope at two depths belong to one smooth curve: tissue may fold and snap.
-bool joined(const CurvePoint& a, const CurvePoint& b) {
+bool joined(const ForcePoint& a, const ForcePoint& b) {
   constexpr double jump = 0.04;
   const double expected = a.force + 0.5 * (b.depth - a.depth) * (a.slope + b.slope);
   return std::abs(b.force - expected) < jump * std::max(std::abs(a.force), std::abs(b.force));
@@ -47,19 +47,19 @@ class CurveSolver {
   const std::string& reason() const { return reason_; }
 
   /// From `from` to `depth`, in halves where one step does not do. False where that fails.
-  bool reach(Place& from, double depth, const Positions* start, CurvePoint& point, int halvings) {
+  bool reach(Place& from, double depth, const Positions* start, ForcePoint& point, int halvings) {
     const Positions predicted = from.x + (depth - from.depth) * from.along;
     if (start && solve(*start, from, depth, point)) return true;
     if (solve(predicted, from, depth, point)) return true;
     if (halvings == most_halvings) return false;
     const double middle = 0.5 * (from.depth + depth);
-    CurvePoint between;
+    ForcePoint between;
     return reach(from, middle, nullptr, between, halvings + 1) &&
            reach(from, depth, nullptr, point, halvings + 1);
   }
 
  private:
-  bool solve(const Positions& start, Place& at, double depth, CurvePoint& point) {
+  bool solve(const Positions& start, Place& at, double depth, ForcePoint& point) {
     const Model& model = m_.model;
     if (!std::isfinite(energy(model, start, m_.parameters(tissue_, depth)))) return false;
     const Equilibrium e =
@@ -104,7 +104,7 @@ ForceCurve solve_force_curve(const IndentationModel& m, const BlockTissue& tissu
   Place at{0, m.model.rest, Vector::Zero(m.model.rest.size())};
   for (size_t i = 0; i < depths.size(); ++i) {
     const bool known = near && i < near->points.size() && near->points[i].depth == depths[i];
-    CurvePoint point;
+    ForcePoint point;
     if (!solver.reach(at, depths[i], known ? &near->points[i].x : nullptr, point, 0)) {
       curve.message = fmt::format("no equilibrium at a depth of {:.3g} mm: {}", 1e3 * depths[i],
                                   solver.reason());

@@ -12,7 +12,7 @@
 namespace genio {
 
 /// The whole block's answer at one depth.
-struct CurvePoint {
+struct ForcePoint {
   double depth;                                    ///< prescribed [m]
   double force;                                    ///< [N]
   double slope;                                    ///< its derivative by the depth [N/m]
@@ -23,7 +23,7 @@ struct CurvePoint {
 
 struct ForceCurve {
   std::string message;  ///< the reason where it ends early; empty when it is whole
-  std::vector<CurvePoint> points;
+  std::vector<ForcePoint> points;
   int newton_iterations = 0, factorizations = 0;
 
   explicit operator bool() const { return message.empty(); }

@@ -210,8 +210,8 @@ ExperimentNotes merged(const ExperimentNotes& said, const ExperimentNotes& other
   return both;
 }
 
-Experiment experiment_of(const ExperimentNotes& n, bool with_mucosa) {
-  Experiment e;
+IndentationExperiment experiment_of(const ExperimentNotes& n, bool with_mucosa) {
+  IndentationExperiment e;
   if (n.indenter) e.indenter = indenter_of(*n.indenter);
   if (n.radius_mm) e.radius = 1e-3 * *n.radius_mm;
   if (n.thickness_mm) e.thickness = 1e-3 * *n.thickness_mm;

@@ -41,7 +41,7 @@ ExperimentNotes merged(const ExperimentNotes& said, const ExperimentNotes& other
 
 /// The experiment of some notes. Where they do not say: a punch of 5 mm on 20 mm of tissue whose
 /// sides are ten radii away; the usual mucosa is 1 mm thick. Throws InputError as check() does.
-Experiment experiment_of(const ExperimentNotes& notes, bool with_mucosa);
+IndentationExperiment experiment_of(const ExperimentNotes& notes, bool with_mucosa);
 
 /// What the notes say of the mucosa, else twice the constants of dead muscle: none are published.
 YeohConstants mucosa_of(const ExperimentNotes& notes);

@@ -13,20 +13,20 @@ namespace {
 
 constexpr double much_stiffer = 5000;  // indenter over tissue
 
-double contact_radius(const Experiment& e, double greatest_depth) {
+double contact_radius(const IndentationExperiment& e, double greatest_depth) {
   if (e.indenter != Indenter::sphere) return e.radius;
   return std::min(std::sqrt(e.radius * greatest_depth), 0.9 * e.radius);  // Hertz
 }
 
 /// Of the indenter's penalty, beside a half space.
-double penalty(const Experiment& e, double contact, const BlockTissue& about) {
+double penalty(const IndentationExperiment& e, double contact, const BlockTissue& about) {
   const double modulus = 8 * std::max(about.muscle.a10, e.mucosa > 0 ? about.mucosa.a10 : 0);
   return e.indenter == Indenter::pressure ? much_stiffer * 2 * contact * modulus / 4
                                           : much_stiffer * modulus / contact;
 }
 
-Model assembled(const Experiment& e, const IndentedBlock& block, const BlockTissue& about,
-                std::shared_ptr<const IndenterPotential> indenter) {
+Model assembled(const IndentationExperiment& e, const IndentedBlock& block,
+                const BlockTissue& about, std::shared_ptr<const IndenterPotential> indenter) {
   ModelParts m;
   m.name = "indented block";
   m.mesh = block.mesh;
@@ -41,13 +41,14 @@ Model assembled(const Experiment& e, const IndentedBlock& block, const BlockTiss
 }  // namespace
 
 struct IndentationModel::Made {
-  Experiment experiment;
+  IndentationExperiment experiment;
   BlockTissue about;
   double contact;
   IndentedBlock block;
   std::shared_ptr<const IndenterPotential> indenter;
 
-  Made(const Experiment& e, double greatest_depth, const BlockTissue& tissue, const BlockGrid& grid)
+  Made(const IndentationExperiment& e, double greatest_depth, const BlockTissue& tissue,
+       const BlockGrid& grid)
       : experiment(e), about(tissue) {
     check(e);
     if (!(greatest_depth > 0 && greatest_depth < 0.8 * e.thickness))
@@ -61,7 +62,7 @@ struct IndentationModel::Made {
   }
 };
 
-IndentationModel::IndentationModel(const Experiment& e, double greatest_depth,
+IndentationModel::IndentationModel(const IndentationExperiment& e, double greatest_depth,
                                    const BlockTissue& about, const BlockGrid& grid)
     : IndentationModel(Made(e, greatest_depth, about, grid)) {}
 

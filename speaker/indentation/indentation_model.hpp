@@ -23,10 +23,10 @@ struct IndentationModel {
   /// For depths up to `greatest_depth` [m]. The indenter's penalty is chosen for tissue about as
   /// stiff as `about`: of that, the tissue misses the depth by less than 0.1 %. Throws InputError
   /// where no such experiment can be (check()).
-  IndentationModel(const Experiment& experiment, double greatest_depth, const BlockTissue& about,
-                   const BlockGrid& grid = {});
+  IndentationModel(const IndentationExperiment& experiment, double greatest_depth,
+                   const BlockTissue& about, const BlockGrid& grid = {});
 
-  Experiment experiment;
+  IndentationExperiment experiment;
   double contact;  ///< radius of what touches, as the mesh was made for it [m]
   std::shared_ptr<const IndenterPotential> indenter;
   Model model;

@@ -38,7 +38,8 @@ IndenterPotential::IndenterPotential(const char* unit, double stiffness)
               .upper = 1e15,
               .penalty = true}}} {}
 
-RigidIndenter::RigidIndenter(const IndentedBlock& block, const Experiment& e, double stiffness)
+RigidIndenter::RigidIndenter(const IndentedBlock& block, const IndentationExperiment& e,
+                             double stiffness)
     : IndenterPotential("Pa/m", stiffness),
       top_(top_of(block)),
       radius_(e.indenter == Indenter::sphere ? e.radius : 0) {
@@ -178,7 +179,8 @@ double PressurePatch::pressing(const Positions& x, EffectParameters p) const {
 }
 
 std::shared_ptr<const IndenterPotential> indenter_potential(const IndentedBlock& block,
-                                                            const Experiment& e, double stiffness) {
+                                                            const IndentationExperiment& e,
+                                                            double stiffness) {
   if (e.indenter == Indenter::pressure) return std::make_shared<PressurePatch>(block, stiffness);
   return std::make_shared<RigidIndenter>(block, e, stiffness);
 }

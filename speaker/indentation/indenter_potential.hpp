@@ -34,7 +34,8 @@ class IndenterPotential : public Potential {
 /// Pa/m.
 class RigidIndenter final : public IndenterPotential {
  public:
-  RigidIndenter(const IndentedBlock& block, const Experiment& experiment, double stiffness);
+  RigidIndenter(const IndentedBlock& block, const IndentationExperiment& experiment,
+                double stiffness);
 
   double energy(const Positions& x, EffectParameters p) const override;
   void add_force(const Positions& x, EffectParameters p, Forces& f) const override;
@@ -86,7 +87,7 @@ class PressurePatch final : public IndenterPotential {
 };
 
 std::shared_ptr<const IndenterPotential> indenter_potential(const IndentedBlock& block,
-                                                            const Experiment& experiment,
+                                                            const IndentationExperiment& experiment,
                                                             double stiffness);
 
 }  // namespace genio

@@ -17,8 +17,8 @@ ForceData scattered(const ForceData& exact, double scatter, unsigned seed) {
   return d;
 }
 
-ForceData simulated_data(const Experiment& e, const BlockTissue& tissue, double depth, int rows,
-                         double scatter, unsigned seed, const BlockGrid& grid) {
+ForceData simulated_data(const IndentationExperiment& e, const BlockTissue& tissue, double depth,
+                         int rows, double scatter, unsigned seed, const BlockGrid& grid) {
   ForceData d;
   d.depth = Vector::LinSpaced(rows, depth / rows, depth);
   const CurveBetween between(d.depth, e.indenter);

@@ -25,7 +25,7 @@ struct NoCurve : std::runtime_error {
 };
 
 /// a10 of a half space with the force at the greatest depth, softened as deep tissue stiffens.
-double rough_a10(const Experiment& e, const ForceData& data) {
+double rough_a10(const IndentationExperiment& e, const ForceData& data) {
   const Eigen::Index last = data.depth.size() - 1;
   const double d = data.depth[last], over = 8;  // E / (1 - nu^2) over a10
   const double per_a10 = e.indenter == Indenter::sphere
@@ -36,7 +36,7 @@ double rough_a10(const Experiment& e, const ForceData& data) {
 
 class FitProblem {
  public:
-  FitProblem(const Experiment& e, const ForceData& data, const TissueFitOptions& o)
+  FitProblem(const IndentationExperiment& e, const ForceData& data, const TissueFitOptions& o)
       : data_(data),
         options_(o),
         between_(data.depth, e.indenter),
@@ -93,7 +93,7 @@ class FitProblem {
     Vector force(n);
     Matrix derivative(n, unknowns_);
     for (Eigen::Index k = 0; k < n; ++k) {
-      const CurvePoint& p = curve.points[size_t(k)];
+      const ForcePoint& p = curve.points[size_t(k)];
       force[k] = p.force;
       derivative.row(k).head(2) << p.derivative[by_a10], p.derivative[by_a20];
       if (unknowns_ > 2)
@@ -263,7 +263,7 @@ void judge(FitProblem& problem, const Vector& v) {
 
 }  // namespace
 
-TissueFit fit_tissue(const Experiment& experiment, const ForceData& data,
+TissueFit fit_tissue(const IndentationExperiment& experiment, const ForceData& data,
                      const TissueFitOptions& options) {
   const Stopwatch elapsed;
   FitProblem problem(experiment, data, options);

@@ -50,7 +50,7 @@ struct TissueFit {
 /// curve at the start makes independent, with exact derivatives. Covariance: the inverse of the
 /// Fisher information, with the scatter that is given or, else, that of the residuals.
 /// Throws InputError where the experiment cannot have such depths.
-TissueFit fit_tissue(const Experiment& experiment, const ForceData& data,
+TissueFit fit_tissue(const IndentationExperiment& experiment, const ForceData& data,
                      const TissueFitOptions& options);
 
 }  // namespace genio

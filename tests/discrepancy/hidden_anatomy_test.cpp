@@ -68,9 +68,16 @@ TEST_F(ScoredAnatomy, SignatureIsWhatResidualsDoAsTheModeGrows) {
         return comparison(e.x).values;
       };
       const double h = 1e-4;
-      const Vector quotient = (at(h) - at(-h)) / (2 * h);
-      // The first and the last point lie where the line ends, and there the residual has a kink.
-      const Eigen::Index within = quotient.size() - 2;
+      const Vector here = at(0), after = (at(h) - here) / h, before = (here - at(-h)) / h;
+      const Vector quotient = 0.5 * (after + before);
+      // The first and the last point lie where the line ends. There the residual has a kink, and
+      // the signature lies between its two slopes.
+      const Eigen::Index last = quotient.size() - 1, within = quotient.size() - 2;
+      for (const Eigen::Index i : {Eigen::Index(0), last}) {
+        const double slack = 0.02 * (std::abs(after[i]) + std::abs(before[i]));
+        EXPECT_GT(s(row + i, 0), std::min(after[i], before[i]) - slack) << candidate.where;
+        EXPECT_LT(s(row + i, 0), std::max(after[i], before[i]) + slack) << candidate.where;
+      }
       EXPECT_LT((quotient - s.middleRows(row, quotient.size()).col(0)).segment(1, within).norm(),
                 1e-3 * quotient.segment(1, within).norm())
           << candidate.where << " condition " << k << ": " << quotient.transpose() << "\nagainst "

@@ -11,7 +11,7 @@ namespace {
 
 const BlockGrid coarse{2, 0.25, 1.8};
 
-Experiment small_block(Indenter indenter) {
+IndentationExperiment small_block(Indenter indenter) {
   return {.indenter = indenter,
           .radius = 5e-3,
           .thickness = 12e-3,
@@ -43,7 +43,7 @@ class EveryIndenter : public testing::TestWithParam<Indenter> {
 // Central differences err as the square of the step, until rounding takes over: the best of a row
 // of steps is far better than its ends.
 TEST_P(EveryIndenter, HasTheDerivativesOfItsForceByConstantsAndDepth) {
-  const CurvePoint at = solve(layered).points.back();
+  const ForcePoint at = solve(layered).points.back();
   for (int k = 0; k <= block_constants; ++k) {
     const bool by_depth = k == block_constants;
     const double exact = by_depth ? at.slope : at.derivative[size_t(k)];
@@ -67,7 +67,7 @@ TEST_P(EveryIndenter, HasTheDerivativesOfItsForceByConstantsAndDepth) {
 }
 
 TEST_P(EveryIndenter, NeedsForcesThatAreLinearInAllConstantsTogether) {
-  const CurvePoint at = solve(layered).points.back();
+  const ForcePoint at = solve(layered).points.back();
   double sum = 0;
   BlockTissue t = layered;
   for (int k = 0; k < block_constants; ++k) sum += constant(t, k) * at.derivative[size_t(k)];
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Indentation, EveryIndenter,
                          [](const auto& i) { return to_string(i.param); });
 
 TEST(Indentation, RefusesExperimentsThatCannotBe) {
-  Experiment e;
+  IndentationExperiment e;
   EXPECT_THROW(IndentationModel(e, 19e-3, layered), InputError);  // through the block
   EXPECT_THROW(IndentationModel(e, 0, layered), InputError);
   e.radius = 5;  // millimetres

@@ -40,7 +40,7 @@ TEST(ForceData, AreReadInAnyOrderOfColumnsWithTheirRemarks) {
   EXPECT_FALSE(f.data.sd);
   EXPECT_DOUBLE_EQ(f.data.depth[0], 1e-3);  // from the first touch inwards
   EXPECT_DOUBLE_EQ(f.data.force[4], 0.15);
-  const Experiment e = experiment_of(f.notes, false);
+  const IndentationExperiment e = experiment_of(f.notes, false);
   EXPECT_EQ(e.indenter, Indenter::sphere);
   EXPECT_DOUBLE_EQ(e.radius, 7e-3);
   EXPECT_DOUBLE_EQ(e.half_width, 70e-3);
@@ -50,7 +50,7 @@ TEST(ForceData, AreReadInAnyOrderOfColumnsWithTheirRemarks) {
 TEST(ForceData, WhatAPersonSaysGoesBeforeTheFile) {
   ExperimentNotes said, file;
   said.radius_mm = 3, file.radius_mm = 4, file.thickness_mm = 9;
-  const Experiment e = experiment_of(merged(said, file), true);
+  const IndentationExperiment e = experiment_of(merged(said, file), true);
   EXPECT_DOUBLE_EQ(e.radius, 3e-3);
   EXPECT_DOUBLE_EQ(e.thickness, 9e-3);
   EXPECT_DOUBLE_EQ(e.mucosa, 1e-3);

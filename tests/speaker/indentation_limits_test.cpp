@@ -18,11 +18,11 @@ double plane_modulus(double nu) { return 4 * a10 / (1 - nu); }
 /// Force at a small depth; thickness and half width in radii.
 double force_at(Indenter indenter, double thickness, double half_width, double nu, double depth,
                 const BlockGrid& grid) {
-  const Experiment e{.indenter = indenter,
-                     .radius = radius,
-                     .thickness = thickness * radius,
-                     .half_width = half_width * radius,
-                     .poisson_ratio = nu};
+  const IndentationExperiment e{.indenter = indenter,
+                                .radius = radius,
+                                .thickness = thickness * radius,
+                                .half_width = half_width * radius,
+                                .poisson_ratio = nu};
   const BlockTissue tissue{{a10, 0}, {}};
   const IndentationModel m(e, depth, tissue, grid);
   Workspace ws(m.model);

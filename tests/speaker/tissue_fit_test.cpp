@@ -14,7 +14,7 @@ namespace {
 const BlockGrid fit_grid{2, 0.15, 1.6};
 const BlockTissue rear{{1160.0 / 6, 90.6}, {384, 180}};
 
-Experiment ball(double mucosa) {
+IndentationExperiment ball(double mucosa) {
   return {.indenter = Indenter::sphere,
           .radius = 7e-3,
           .thickness = 15e-3,

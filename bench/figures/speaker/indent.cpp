@@ -17,7 +17,7 @@ namespace {
 constexpr double shear_constant = 192;  // a10 [Pa]
 
 /// Force over that of `per_modulus` times E / (1 - nu^2), one small depth.
-double over_formula(const Experiment& e, double depth, double per_modulus) {
+double over_formula(const IndentationExperiment& e, double depth, double per_modulus) {
   const BlockTissue tissue{{shear_constant, 0}, {}};
   const IndentationModel m(e, depth, tissue);
   Workspace ws(m.model);
@@ -29,7 +29,7 @@ double over_formula(const Experiment& e, double depth, double per_modulus) {
 Json linear_limits(const Progress& progress) {
   const double a = 5e-3, d = 0.005 * a;
   const auto deep = [&](Indenter i) {
-    return Experiment{
+    return IndentationExperiment{
         .indenter = i, .radius = a, .thickness = 100 * a, .half_width = 100 * a, .mucosa = 0};
   };
   Json j;
@@ -64,11 +64,11 @@ Json conditions(int repeats, unsigned seed, const Progress& progress) {
                              {"front muscle", 1100, 0},
                              {"rear with mucosa", 1190, 1e-3},
                              {"front with mucosa", 1140, 1e-3}}) {
-    const Experiment e{.indenter = Indenter::sphere,
-                       .radius = 7e-3,
-                       .thickness = 15e-3,
-                       .half_width = 70e-3,
-                       .mucosa = c.mucosa};
+    const IndentationExperiment e{.indenter = Indenter::sphere,
+                                  .radius = 7e-3,
+                                  .thickness = 15e-3,
+                                  .half_width = 70e-3,
+                                  .mucosa = c.mucosa};
     const double a10 = c.young_modulus / 6;
     const BlockTissue tissue{{a10, a10 * 90 / 192}, {384, 180}};
     ForceData data = simulated_data(e, tissue, 7e-3, 200, 0, 1, finer);

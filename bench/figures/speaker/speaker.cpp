@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bench/figures/speaker/hidden_anatomy.hpp"
 #include "bench/figures/speaker/outline_sheet.hpp"
 #include "bench/figures/speaker/sparse.hpp"
 #include "bench/problems/clock.hpp"
@@ -83,8 +84,10 @@ Json outlines(const BenchOptions& o, const Progress& progress) {
 
 Json run_speaker_bench(const BenchOptions& o, const Progress& progress) {
   if (o.only == "sparse") return sparse_figures(o, progress);
+  if (o.only == "anatomy") return hidden_anatomy_figures(o, progress);
   if (!o.only.empty() && o.only != "outlines")
-    throw InputError(fmt::format("bench speaker --only {}: expected outlines or sparse", o.only));
+    throw InputError(
+        fmt::format("bench speaker --only {}: expected outlines, sparse or anatomy", o.only));
   return outlines(o, progress);
 }
 
@@ -94,8 +97,9 @@ Benchmark speaker_bench() {
   return {.name = "speaker",
           .about = "Models adapted to speakers' outlines: distances, elements, equilibria",
           .options = {{"--data", "CSV of the speakers' outlines", true},
-                      {"--only", "outlines or sparse (outlines)"},
-                      {"--sample", "speakers (all)"},
+                      {"--only", "outlines, sparse or anatomy (outlines)"},
+                      {"--sample", "speakers (all; 8 with hidden anatomy)"},
+                      {"--seed", "which are drawn"},
                       {"--out", "picture of all, without its ending"}},
           .run = run_speaker_bench};
 }

@@ -68,6 +68,25 @@ TEST(Registration, PosturesFarFromRestLeaveTheHeadWhereItWas) {
   }
 }
 
+/// A recording that is a twentieth larger: of a speaker like the model, or of the model's own.
+TEST(Registration, AModelOfTheSpeakersOwnKeepsItsSize) {
+  ModelDescription d = read_description(test::generic_model());
+  const auto scale_for = [&](double scale_sd) {
+    d.scale_sd = scale_sd;
+    const Model m = build_model(d, "model");
+    const auto palate = midsagittal_cut(*m.palate).front();
+    std::vector<Vec2> trace;
+    for (size_t k = palate.size() / 6; k < 2 * palate.size() / 3; ++k)
+      trace.push_back(1.05 * palate[k]);
+    std::vector<std::vector<Vec2>> contours = pulled_lines(m, {"GGP", "HG"});
+    for (auto& contour : contours)
+      for (Vec2& q : contour) q *= 1.05;
+    return register_by_palate(m, reach_of(m), trace, contours).transform.scale;
+  };
+  EXPECT_NEAR(scale_for(0.06), 1 / 1.05, 0.015);
+  EXPECT_NEAR(scale_for(0.003), 1, 0.01);
+}
+
 TEST(Registration, NeedsPalateAndTrace) {
   const Model m = read_model(test::generic_model());
   EXPECT_THROW(register_by_palate(m, reach_of(m), {Vec2(0, 0)}, {}), InputError);
