@@ -11,6 +11,7 @@
 #include "bench/experiments/surface_edges.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/effects/muscles/muscles.hpp"
+#include "forward/effects/tissue/named_tissue.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/model_file.hpp"
 #include "forward/statics/equilibrium.hpp"
@@ -23,7 +24,7 @@ namespace {
 Model variant(const ModelDescription& tongue, const std::string& source, bool cadaver, bool palate,
               bool jaw) {
   ModelDescription d = tongue;
-  if (cadaver) d.effects["elasticity"] = {{"a10", 192}, {"a20", 90}, {"kappa", 192000}};
+  if (cadaver) d.effects["elasticity"] = named_tissue("cadaver");
   else d.effects["elasticity"] = {{"a10", 1037}, {"a20", 486}, {"kappa", 1037000}};
   if (!palate) d.effects.erase("palate_contact");
   if (!jaw) d.effects.erase("jaw_contact");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -9,6 +10,8 @@
 #include "cli/support.hpp"
 #include "forward/base/text_file.hpp"
 #include "forward/model/build_model.hpp"
+#include "report/pictures/plot.hpp"
+#include "report/pictures/svg.hpp"
 #include "speaker/indentation/simulated_data.hpp"
 #include "speaker/indentation/tissue_fit.hpp"
 
@@ -74,8 +77,10 @@ std::string curve_csv(const ForceData& d, const TissueFit& fit) {
   return text;
 }
 
-/// The model with the muscle's constants. Its bulk modulus keeps its ratio to a10.
-void write_into(const IndentCommand& o, ModelDescription d, const TissueFit& fit) {
+/// The model with the muscle's constants, and with a mucosa of this thickness [m] where the block
+/// had one. The bulk modulus keeps its ratio to a10.
+void write_into(const IndentCommand& o, ModelDescription d, const TissueFit& fit,
+                double thickness) {
   EffectTable& table = d.effects["elasticity"];
   const auto bulk = table.find("kappa"), before = table.find("a10");
   const double ratio = bulk != table.end() && before != table.end() && before->second > 0
@@ -83,10 +88,33 @@ void write_into(const IndentCommand& o, ModelDescription d, const TissueFit& fit
                            : 1000;
   table["a10"] = fit.tissue.muscle.a10, table["a20"] = fit.tissue.muscle.a20;
   table["kappa"] = ratio * fit.tissue.muscle.a10;
+  // The tissue of the tongue reaches up to its surface: the layer is what the mucosa is stiffer.
+  const YeohConstants &mucosa = fit.tissue.mucosa, &muscle = fit.tissue.muscle;
+  if (thickness > 0 && mucosa.a10 > muscle.a10)
+    d.effects["mucosa_layer"] = {{"thickness", thickness},
+                                 {"a10", mucosa.a10 - muscle.a10},
+                                 {"a20", std::max(0.0, mucosa.a20 - muscle.a20)}};
   d.provenance += fmt::format("{}tissue constants by genio indent from {}",
                               d.provenance.empty() ? "" : "; ", o.data);
   build_model(d, o.into);  // refuses what could not be computed with
   write_description(d, o.into);
+}
+
+/// The measured and the fitted curve.
+void draw_fit(const ForceData& data, const TissueFit& fit, const std::string& folder) {
+  std::vector<Series> series{{"measured", {}}, {"fitted", {}}};
+  for (Eigen::Index k = 0; k < data.depth.size(); ++k) {
+    series[0].points.emplace_back(1e3 * data.depth[k], data.force[k]);
+    series[1].points.emplace_back(1e3 * data.depth[k], fit.predicted[k]);
+  }
+  std::vector<std::string> notes;
+  for (const FittedConstant& c : fit.constants)
+    notes.push_back(
+        fmt::format("{} {:.1f} Pa, 90 % within {:.1f} to {:.1f}", c.name, c.value, c.low, c.high));
+  const std::string svg =
+      plot("Force of the indenter", "depth [mm]", "force [N]", series, false, false, notes);
+  write_text(folder + "/curve.svg", svg);
+  write_png(folder + "/curve.png", svg, 1.5);
 }
 
 void print_fit(const IndentationExperiment& e, const TissueFit& fit) {
@@ -131,7 +159,8 @@ int fit(const IndentCommand& o) {
   make_folder(o.out);
   write_text(o.out + "/result.json", fit_json(e, data, found, 2) + "\n");
   if (found) write_text(o.out + "/curve.csv", curve_csv(data, found));
-  if (found && base) write_into(o, *base, found);
+  if (found) draw_fit(data, found, o.out);
+  if (found && base) write_into(o, *base, found, e.mucosa);
   if (o.json) fmt::print("{}\n", fit_json(e, data, found));
   else if (found) print_fit(e, found);
   if (!found) print_line("genio: indent: " + found.message);

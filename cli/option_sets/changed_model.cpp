@@ -22,8 +22,7 @@ std::string nearest_effect(const ModelDescription& description, const std::strin
 
 }  // namespace
 
-Model changed_model(const std::string& model, const ModelChanges& changes) {
-  auto description = read_description(model);
+ModelDescription changed_description(ModelDescription description, const ModelChanges& changes) {
   for (const auto& name : changes.without)
     if (description.effects.erase(name) == 0)
       throw InputError(fmt::format("--without {}: the model has no such effect; did you mean {}?",
@@ -46,7 +45,11 @@ Model changed_model(const std::string& model, const ModelChanges& changes) {
       table["kappa"] *= value / table["a10"];
     table[key] = value;
   }
-  return build_model(description, model);
+  return description;
+}
+
+Model changed_model(const std::string& model, const ModelChanges& changes) {
+  return build_model(changed_description(read_description(model), changes), model);
 }
 
 Parameters commanded(const Model& model, const std::vector<std::string>& forces) {

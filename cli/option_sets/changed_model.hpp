@@ -12,6 +12,10 @@ struct ModelChanges {
   std::vector<std::string> without;  ///< effects that are left out
 };
 
+/// The description with the effects that the command line leaves out, switches on or changes.
+/// Throws InputError naming the option.
+ModelDescription changed_description(ModelDescription description, const ModelChanges& changes);
+
 /// The model of a file with the effects that the command line leaves out, switches on or changes.
 /// Throws InputError naming the option.
 Model changed_model(const std::string& model, const ModelChanges& changes);

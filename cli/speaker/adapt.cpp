@@ -9,9 +9,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/option_sets/changed_model.hpp"
 #include "cli/support.hpp"
 #include "forward/base/elapsed.hpp"
 #include "forward/base/median.hpp"
+#include "forward/effects/tissue/named_tissue.hpp"
 #include "forward/model/build_model.hpp"
 #include "speaker/adaptation/adapt.hpp"
 #include "speaker/adaptation/stack_sides.hpp"
@@ -24,7 +26,8 @@ namespace {
 
 struct AdaptCommand {
   std::string model = default_model(), modes = default_modes();
-  std::string outline, speaker, palate, contours, slices, surface, out;
+  std::string outline, speaker, palate, contours, slices, surface, tissue, out;
+  ModelChanges changes;
   bool json = false;
 };
 
@@ -135,6 +138,8 @@ int run_adapt(const AdaptCommand& o) {
       const auto fields = mode_fields(s.modes, a.model, o.out);
       a.model = with_modes(std::move(a.model), fields);
     }
+    if (!o.tissue.empty()) a.model.effects["elasticity"] = named_tissue(o.tissue);
+    a.model = changed_description(std::move(a.model), o.changes);
     build_model(a.model, o.out);  // refuses what could not be computed with
     write_description(a.model, o.out);
     if (s.from_parts)
@@ -175,6 +180,12 @@ Runner add_adapt(Options& options) {
   options.add("--surface", o->surface,
               "Closed surface of the tongue in metres (OBJ, STL, PLY), in the outline's frame or, "
               "alone, in the model's axes");
+  options.add("--tissue", o->tissue, "Constants of the tissue, where not the base model's",
+              {.among = {"living", "cadaver"}});
+  options.add("--effect", o->changes.effects,
+              "NAME.param=VALUE, SI units: an effect that the model is to have, such as "
+              "mucosa_layer or active_stiffening");
+  options.add("--without", o->changes.without, "Leave an effect of the base model out");
   options.add("--out", o->out, "Model folder to write", {.required = true});
   options.flag("--json", o->json, "One JSON object on standard output");
   options.footer("Example: genio adapt --outline data/examples/adapt/outline.csv --out mine");

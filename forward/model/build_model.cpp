@@ -38,8 +38,11 @@ Anatomy anatomy_of(const ModelDescription& d, const std::string& source,
   Anatomy result{d, source, d.muscles, supports_for(d), tissue_mass(d.mesh, d.density), standing};
   for (size_t m = 0; m < d.muscles.size(); ++m) {
     Muscle& muscle = result.muscles[m];
-    muscle.segments = share_by_volume(d.mesh, muscle.fibres, muscle.elements);
-    if (!standing) continue;
+    if (!standing) {
+      muscle.segments = share_by_volume(d.mesh, muscle.fibres, muscle.elements);
+      continue;
+    }
+    muscle.segments = segments_of(d.mesh, muscle.fibres);
     const auto shares =
         share_by_volume(standing->mesh, standing->muscles[m].fibres, muscle.elements);
     for (size_t s = 0; s < shares.size(); ++s) muscle.segments[s].share = shares[s].share;

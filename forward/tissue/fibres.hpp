@@ -40,6 +40,9 @@ struct Muscle {
   std::vector<FibreSegment> segments;  ///< all fibres' segments with their shares
 };
 
+/// The segments of fibres, one after another, without shares.
+std::vector<FibreSegment> segments_of(const HexMesh& mesh, const std::vector<Fibre>& fibres);
+
 /// Segments of all fibres with shares by the tissue volume each stands for:
 /// share_s = V_s / sum over fibres f of max over s in f of V_s, where V_s is the volume of the
 /// muscle's elements that contain both ends of the segment or, when there is none, the mean volume

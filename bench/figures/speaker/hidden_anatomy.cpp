@@ -13,7 +13,7 @@
 #include "bench/truths/erring_tongue.hpp"
 #include "bench/truths/erring_truth.hpp"
 #include "bench/truths/measured_shape.hpp"
-#include "discrepancy/contest/shared_fit.hpp"
+#include "discrepancy/shared/shared_fit.hpp"
 #include "inverse/search/multi_start.hpp"
 #include "speaker/modes/mode_fields.hpp"
 #include "speaker/outline/outline_facing.hpp"

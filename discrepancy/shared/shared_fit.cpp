@@ -1,6 +1,9 @@
-#include "discrepancy/contest/shared_fit.hpp"
+#include "discrepancy/shared/shared_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "discrepancy/contest/settled_fit.hpp"
 
 namespace genio {
 namespace {

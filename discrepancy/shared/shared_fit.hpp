@@ -1,7 +1,8 @@
 #pragma once
 // Parameters that all conditions share, estimated along with the forces of each.
 
-#include "discrepancy/contest/settled_fit.hpp"
+#include "discrepancy/conditions/joint_fit.hpp"
+#include "discrepancy/errors/error_model.hpp"
 
 namespace genio {
 
