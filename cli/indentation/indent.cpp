@@ -9,6 +9,7 @@
 #include "cli/indentation/fit_json.hpp"
 #include "cli/support.hpp"
 #include "forward/base/text_file.hpp"
+#include "forward/base/thin.hpp"
 #include "forward/model/build_model.hpp"
 #include "report/pictures/plot.hpp"
 #include "report/pictures/svg.hpp"
@@ -107,6 +108,7 @@ void draw_fit(const ForceData& data, const TissueFit& fit, const std::string& fo
     series[0].points.emplace_back(1e3 * data.depth[k], data.force[k]);
     series[1].points.emplace_back(1e3 * data.depth[k], fit.predicted[k]);
   }
+  series[1].points = thin(series[1].points, 25);  // a smooth curve, which would hide the measured
   std::vector<std::string> notes;
   for (const FittedConstant& c : fit.constants)
     notes.push_back(

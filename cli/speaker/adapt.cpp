@@ -125,6 +125,18 @@ AdaptedSpeaker adapted(const AdaptCommand& o, const ModelDescription& base) {
   return s;
 }
 
+/// With the tissue and the effects that the command line asks for; its origin tells of them.
+ModelDescription with_chosen_tissue(const AdaptCommand& o, ModelDescription d) {
+  if (!o.tissue.empty()) {
+    d.effects["elasticity"] = named_tissue(o.tissue);
+    d.provenance += fmt::format("; {} tissue", o.tissue);
+  }
+  d = changed_description(std::move(d), o.changes);
+  for (const std::string& effect : o.changes.effects) d.provenance += "; " + effect;
+  for (const std::string& effect : o.changes.without) d.provenance += "; without " + effect;
+  return d;
+}
+
 int run_adapt(const AdaptCommand& o) {
   const Stopwatch watch;
   const ModelDescription base = read_description(o.model);
@@ -138,8 +150,7 @@ int run_adapt(const AdaptCommand& o) {
       const auto fields = mode_fields(s.modes, a.model, o.out);
       a.model = with_modes(std::move(a.model), fields);
     }
-    if (!o.tissue.empty()) a.model.effects["elasticity"] = named_tissue(o.tissue);
-    a.model = changed_description(std::move(a.model), o.changes);
+    a.model = with_chosen_tissue(o, std::move(a.model));
     build_model(a.model, o.out);  // refuses what could not be computed with
     write_description(a.model, o.out);
     if (s.from_parts)

@@ -42,7 +42,7 @@ struct ModelDescription {
   Landmarks landmarks;
   std::vector<int> midsagittal;
   std::optional<TriangleSurface> palate, jaw, hyoid;
-  std::vector<AnatomyMode> modes;              ///< what the effect `anatomy` moves
+  std::vector<AnatomyMode> modes;  ///< what the effect `anatomy` moves
   /// How far the speaker's size may be from the model's, as a standard deviation of the logarithm:
   /// among speakers 6 %, and little once the model is the speaker's own.
   double scale_sd = 0.06;

@@ -11,7 +11,7 @@ namespace genio {
 struct TongueReach {
   std::vector<Vec2> rest;                ///< [m]
   std::vector<std::vector<Vec2>> modes;  ///< displacements of one standard deviation each [m]
-  double scale_sd = 0.06;  ///< of the speaker's size, see ModelDescription
+  double scale_sd = 0.06;                ///< of the speaker's size, see ModelDescription
   /// Called before each step of a search along it, unless empty. What it throws ends the search.
   std::function<void()> on_step = {};
 };

@@ -9,9 +9,9 @@
 
 namespace genio {
 
-constexpr double palate_sd = 2e-3;       // of a trace about the model's palate [m]
-constexpr size_t most_trace = 42;        // independent points of a palate trace
-constexpr double contours_weight = 60;   // independent points of all contours beside a palate
+constexpr double palate_sd = 2e-3;      // of a trace about the model's palate [m]
+constexpr size_t most_trace = 42;       // independent points of a palate trace
+constexpr double contours_weight = 60;  // independent points of all contours beside a palate
 constexpr double tilt_sd = 20 * std::numbers::pi / 180;
 
 /// A recording's palate trace and contours against lines of the model. A point v is (tilt,
