@@ -24,8 +24,7 @@ namespace {
 Model variant(const ModelDescription& tongue, const std::string& source, bool cadaver, bool palate,
               bool jaw) {
   ModelDescription d = tongue;
-  if (cadaver) d.effects["elasticity"] = named_tissue("cadaver");
-  else d.effects["elasticity"] = {{"a10", 1037}, {"a20", 486}, {"kappa", 1037000}};
+  d.effects["elasticity"] = named_tissue(cadaver ? "cadaver" : "living");
   if (!palate) d.effects.erase("palate_contact");
   if (!jaw) d.effects.erase("jaw_contact");
   return build_model(d, source);

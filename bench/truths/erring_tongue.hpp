@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/truths/erring_truth.hpp"
 #include "forward/model/build_model.hpp"
 #include "forward/model/mirror.hpp"
 #include "forward/statics/equilibrium.hpp"
@@ -31,5 +32,10 @@ class ErringTongue {
   std::unique_ptr<const Mirror> mirror_;
   Workspace workspace_;
 };
+
+/// The tongue of that fault by the first of the seeds from `seed` on by which it can be built:
+/// turned fibres may turn an element inside out. Throws InputError after twenty.
+std::unique_ptr<ErringTongue> erring_tongue(const ModelDescription& model, ModelFault fault,
+                                            unsigned seed);
 
 }  // namespace genio::bench

@@ -30,13 +30,6 @@ double between(const std::vector<double>& from, const std::vector<double>& to, d
   return way > 0 ? to[k - 1] + (to[k] - to[k - 1]) * (s - from[k - 1]) / way : to[k];
 }
 
-/// The position among a line's nodes of an arc length.
-double position_at(const Polyline& line, double s) {
-  size_t k = 1;
-  while (k + 1 < line.arc().size() && s > line.arc()[k]) ++k;
-  return double(k - 1) + (s - line.arc()[k - 1]) / (line.arc()[k] - line.arc()[k - 1]);
-}
-
 }  // namespace
 
 std::vector<PlacePair> LineMatch::pairs(const Polyline& outline) const {
@@ -64,14 +57,13 @@ LineMatch match_by_landmarks(const ModelLine& line, const Positions& rest,
   LineMatch match;
   if (to.notch > 0)
     match.notch = LineMatch::Notch{
-        size_t(std::lround(position_at(ours, deepest_notch(ours, from.floor, from.tip)))),
-        to.notch};
+        size_t(std::lround(ours.position(deepest_notch(ours, from.floor, from.tip)))), to.notch};
   for (size_t k = 1; k < stops.size(); ++k) {
     const int parts = std::max(1, int(std::lround((stops[k] - stops[k - 1]) / spacing)));
     for (int i = k == 1 ? 0 : 1; i <= parts; ++i) {
       const double s = stops[k - 1] + (stops[k] - stops[k - 1]) * i / parts;
       match.from.push_back(ours.at(s));
-      match.node.push_back(position_at(ours, s));
+      match.node.push_back(ours.position(s));
       match.at.push_back(same_place_along(from, to, s));
     }
   }

@@ -30,19 +30,10 @@ std::vector<Pull> line_pulls(const ModelLine& line, const std::vector<int>& node
                              const Positions& x, const Polyline& outline, const LineMatch& match,
                              const LinePullOptions& o) {
   const Polyline ours(line_places(line, node, x));
-  const auto position = [&](double s) {
-    size_t k = 1;
-    while (k + 1 < ours.arc().size() && s > ours.arc()[k]) ++k;
-    return double(k - 1) + (s - ours.arc()[k - 1]) / (ours.arc()[k] - ours.arc()[k - 1]);
-  };
-  const auto arc_at = [&](double u) {
-    const size_t k = std::min(size_t(std::max(u, 0.0)), line.vallecula - 1);
-    return ours.arc()[k] + (u - double(k)) * (ours.arc()[k + 1] - ours.arc()[k]);
-  };
-  const double first = arc_at(match.node.front());  // of a free surface alone nothing before
+  const double first = ours.arc_at(match.node.front());  // of a free surface alone nothing before
   std::vector<Pull> pulls;
   const auto add = [&](double s, const Vec2& goal, const Mat3& metric) {
-    const double u = position(s);
+    const double u = ours.position(s);
     const size_t k = std::min(size_t(u), line.vallecula - 1);
     const double part = u - double(k);
     pulls.push_back({{node[k], node[k + 1], -1, -1},
@@ -56,7 +47,7 @@ std::vector<Pull> line_pulls(const ModelLine& line, const std::vector<int>& node
     for (int i = 0; i < parts; ++i) {
       const double s = ours.arc()[k - 1] + gap * (i + 0.5) / parts, weight = o.weight * gap / parts;
       if (s < first) continue;
-      const double there = match.to_outline(position(s));
+      const double there = match.to_outline(ours.position(s));
       const Polyline::Foot foot = outline.foot(ours.at(s), there - window, there + window);
       if (outline.tangent(foot.s).dot(ours.tangent(s)) > 0)
         add(s, foot.place, across(outline.tangent(foot.s), weight, o.along));
@@ -67,7 +58,7 @@ std::vector<Pull> line_pulls(const ModelLine& line, const std::vector<int>& node
   const int count = std::max(1, int(outline.length() / pull_spacing));
   for (int i = 0; i < count; ++i) {
     const double s = outline.length() * (i + 0.5) / count;
-    const double there = arc_at(match.to_line(s));
+    const double there = ours.arc_at(match.to_line(s));
     const Polyline::Foot foot = ours.foot(outline.at(s), there - window, there + window);
     if (foot.s <= first || outline.tangent(s).dot(ours.tangent(foot.s)) < 0) continue;
     add(foot.s, outline.at(s),
@@ -76,7 +67,7 @@ std::vector<Pull> line_pulls(const ModelLine& line, const std::vector<int>& node
   if (match.notch) {
     const Vec2 bottom = outline.at(match.notch->at);
     if (ours.foot(bottom).distance > missed)
-      add(arc_at(double(match.notch->node)), bottom, o.weight * o.notch * Mat3::Identity());
+      add(ours.arc_at(double(match.notch->node)), bottom, o.weight * o.notch * Mat3::Identity());
   }
   const Mat3 corner = o.weight * o.corner * Mat3::Identity();
   add(ours.length(), outline.at(outline.length()), corner);

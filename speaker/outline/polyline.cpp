@@ -24,6 +24,16 @@ Vec2 Polyline::at(double s) const {
   return (1 - part) * points_[k - 1] + part * points_[k];
 }
 
+double Polyline::position(double s) const {
+  const size_t k = segment(s);
+  return double(k - 1) + (s - arc_[k - 1]) / (arc_[k] - arc_[k - 1]);
+}
+
+double Polyline::arc_at(double position) const {
+  const size_t k = std::min(size_t(std::max(position, 0.0)), arc_.size() - 2);
+  return arc_[k] + (position - double(k)) * (arc_[k + 1] - arc_[k]);
+}
+
 Vec2 Polyline::tangent(double s) const {
   const size_t k = segment(std::clamp(s, 0.0, length()));
   return (points_[k] - points_[k - 1]).normalized();

@@ -19,6 +19,9 @@ class Polyline {
   const std::vector<double>& arc() const { return arc_; }
   /// The place at an arc length, which is held between the ends.
   Vec2 at(double s) const;
+  /// The position among the points of an arc length, 1.5 between two, and back.
+  double position(double s) const;
+  double arc_at(double position) const;
   /// Unit tangent there.
   Vec2 tangent(double s) const;
 

@@ -30,18 +30,6 @@ constexpr std::array all_regimes = {Regime{"rest", 0, 0, 0, 0}, Regime{"weak", 1
                                     Regime{"usual", 2, 5, 0, 0.3}, Regime{"strong", 6, 9, 0, 0.4}};
 constexpr std::array device_noises = {0.3e-3, 0.5e-3};  // [m]
 
-/// The first of the seeds from `seed` on whose tongue can be built: turned fibres may turn an
-/// element inside out.
-std::unique_ptr<ErringTongue> tongue_of(const ModelDescription& model, ModelFault fault,
-                                        unsigned seed) {
-  constexpr unsigned patience = 20;
-  for (unsigned k = 0;; ++k) try {
-      return std::make_unique<ErringTongue>(erring_truth(model, fault, seed + k), to_string(fault));
-    } catch (const InputError&) {
-      if (k + 1 == patience) throw;
-    }
-}
-
 /// The same draws for everything that is measured of one tongue.
 struct Case {
   std::map<std::string, double> forces;  ///< by bilateral name [N]
@@ -116,7 +104,7 @@ class Run {
     std::mt19937 random(c.seed);
     std::unique_ptr<ErringTongue> other;
     try {
-      other = tongue_of(beyond_tongue(description_, kind, random), fault, c.seed);
+      other = erring_tongue(beyond_tongue(description_, kind, random), fault, c.seed);
     } catch (const InputError&) {
       // It turned inside out as it was stretched.
     }
@@ -214,7 +202,7 @@ Json run_calibration(const BenchOptions& o, const Progress& progress) {
   const auto commands = muscle_unknowns(run.model(), true);
   for (ModelFault fault : all_faults) {
     if (progress) progress(fmt::format("truths with {}", to_string(fault)));
-    const auto truth = tongue_of(description, fault, o.seed);
+    const auto truth = erring_tongue(description, fault, o.seed);
     for (const Regime& regime : all_regimes) {
       if (!o.only.empty() && o.only != regime.name) continue;
       std::mt19937 random(o.seed + 1000 * unsigned(fault));

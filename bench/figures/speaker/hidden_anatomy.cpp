@@ -11,7 +11,6 @@
 #include "bench/problems/random_muscles.hpp"
 #include "bench/truths/calibration_count.hpp"
 #include "bench/truths/erring_tongue.hpp"
-#include "bench/truths/erring_truth.hpp"
 #include "bench/truths/measured_shape.hpp"
 #include "discrepancy/shared/shared_fit.hpp"
 #include "inverse/search/multi_start.hpp"
@@ -23,7 +22,6 @@ namespace {
 
 constexpr int postures = 8, few_cases = 8;
 constexpr double posture_noise = 0.4e-3, largest_force = 0.15, within90 = 1.6449;
-constexpr unsigned patience = 20;
 
 /// The model with the modes of these speakers.
 ModelDescription with_speakers_modes(const BenchOptions& o) {
@@ -42,20 +40,8 @@ struct HiddenSpeaker {
   Observations observations;
 };
 
-/// The tongue itself, which no model knows; the first whose elements stand the turned fibres.
-std::unique_ptr<ErringTongue> tongue_of(const ModelDescription& model,
-                                        const std::vector<double>& modes, ModelFault fault,
-                                        unsigned seed) {
-  ModelDescription truth = moved(model, modes);
-  truth.modes.clear(), truth.effects.erase("anatomy");
-  for (unsigned k = 0;; ++k) try {
-      return std::make_unique<ErringTongue>(erring_truth(truth, fault, seed + k), "truth");
-    } catch (const InputError&) {
-      if (k + 1 == patience) throw;
-    }
-}
-
-std::optional<HiddenSpeaker> drawn(const ModelDescription& model, int number, unsigned seed) {
+std::optional<HiddenSpeaker> drawn(const Model& known, int number, unsigned seed) {
+  const ModelDescription& model = *known.description;
   std::mt19937 random(seed + 1000 * unsigned(number));
   std::uniform_real_distribution<double> uniform(0, 1);
   HiddenSpeaker s;
@@ -63,8 +49,9 @@ std::optional<HiddenSpeaker> drawn(const ModelDescription& model, int number, un
   const double size = number / int(model.modes.size()) % 2 == 0 ? 1 : 2;
   s.modes[size_t(number) % s.modes.size()] = uniform(random) < 0.5 ? -size : size;
   const ModelFault fault = all_faults[size_t(number) % all_faults.size()];
-  const auto tongue = tongue_of(model, s.modes, fault, seed + unsigned(number));
-  const Model known = build_model(model, "model");
+  ModelDescription truth = moved(model, s.modes);  // the tongue itself, which no model knows
+  truth.modes.clear(), truth.effects.erase("anatomy");
+  const auto tongue = erring_tongue(truth, fault, seed + unsigned(number));
   const auto commands = muscle_unknowns(known, true);
   s.observations.noise = posture_noise;
   for (int k = 0; int(s.forces.size()) < postures && k < 2 * postures; ++k) {
@@ -90,7 +77,8 @@ struct Counts {
   CalibrationCount forces;
 };
 
-Json estimated(const ModelDescription& model, const HiddenSpeaker& s, Counts& counts) {
+Json estimated(const Model& m, InferWorkspace& ws, const HiddenSpeaker& s, Counts& counts) {
+  const ModelDescription& model = *m.description;
   SharedPrior shared;
   for (const AnatomyMode& mode : model.modes)
     shared.parameters[{"anatomy", mode.name}] = {{0, 1}, -3, 3};
@@ -108,8 +96,6 @@ Json estimated(const ModelDescription& model, const HiddenSpeaker& s, Counts& co
     modes[fit.names[i].key] = {{"truth", s.modes[k]}, {"value", value}, {"sd", sd}};
     prior.parameters[fit.names[i].text()] = {{value, sd}, -3, 3};
   }
-  const Model m = build_model(model, "model");
-  InferWorkspace ws(m);
   for (size_t k = 0; k < s.forces.size(); ++k) {
     const Answer a = infer_from_starts(m, s.observations.conditions[k].target, prior, ws);
     if (a.status == InferStatus::converged)
@@ -124,7 +110,8 @@ Json estimated(const ModelDescription& model, const HiddenSpeaker& s, Counts& co
 }  // namespace
 
 Json hidden_anatomy_figures(const BenchOptions& o, const Progress& progress) {
-  const ModelDescription model = with_speakers_modes(o);
+  const Model model = build_model(with_speakers_modes(o), o.model);
+  InferWorkspace workspace(model);
   Counts counts;
   Json rows = Json::array();
   const int count = o.sample > 0 ? o.sample : few_cases;
@@ -132,7 +119,7 @@ Json hidden_anatomy_figures(const BenchOptions& o, const Progress& progress) {
     const auto speaker = drawn(model, k, o.seed);
     Json row;
     if (speaker) try {
-        const double wall = seconds([&] { row = estimated(model, *speaker, counts); });
+        const double wall = seconds([&] { row = estimated(model, workspace, *speaker, counts); });
         row["wall_s"] = wall;
       } catch (const InputError& e) {
         row = {{"failed", e.what()}};
