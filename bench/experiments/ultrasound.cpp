@@ -11,6 +11,7 @@
 #include "inverse/recording/frame_target.hpp"
 #include "inverse/recording/session/session.hpp"
 #include "inverse/search/multi_start.hpp"
+#include "runs/frames/registration_record.hpp"
 
 namespace genio::bench {
 namespace {
@@ -35,16 +36,19 @@ std::vector<const ContourFrame*> every_frame(const ContourFile& file) {
   return result;
 }
 
-/// `infer`: where to start, replaced by where it ended.
-Json answer_frame(const Model& m, const ContourFrame& frame, const Similarity& transform,
+/// As `genio invert` asks. `infer`: where to start, replaced by where it ended.
+Json answer_frame(const Model& m, const ContourFrame& frame, const Registration& registration,
                   double noise, InferWorkspace& ws, InferOptions& infer) {
   Json j = {{"frame", frame.number}, {"label", frame.label}};
-  const Target target = make_target(m, registered(m, frame, transform), noise);
+  const Target target = make_target(m, registered(m, frame, registration.transform), noise);
   if (target.empty()) {
     j["status"] = "failed", j["message"] = frame.note;
     return j;
   }
-  const Answer a = infer_from_starts(m, target, Prior{}, ws, infer);
+  Prior prior;
+  prior.head_pose = head_pose_of(registration);
+  infer.model_error = ModelError().of_another_speaker();
+  const Answer a = infer_from_starts(m, target, prior, ws, infer);
   if (a.status == InferStatus::converged) start_from(a, infer);
   j["status"] = to_string(a.status), j["verdict"] = to_string(a.verdict), j["message"] = a.message;
   j["rms_mm"] = 1e3 * a.rms, j["max_mm"] = 1e3 * a.max;
@@ -68,7 +72,7 @@ Json run_ultrasound(const BenchOptions& o, const Progress& progress) {
   InferOptions infer;
   for (const ContourFrame* frame : o.all ? every_frame(file) : middle_frames(file)) {
     if (!o.all) infer = {};
-    Json j = answer_frame(m, *frame, r.transform, file.format.noise, ws, infer);
+    Json j = answer_frame(m, *frame, r, file.format.noise, ws, infer);
     ++verdicts[j["status"] == "converged" ? j["verdict"].get<std::string>() : "no answer"];
     if (progress)
       progress(fmt::format("{:>5}  {:<28} {:<10} {:<12} {:5.2f} mm {:6.2f} s  {}", frame->number,

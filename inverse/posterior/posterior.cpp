@@ -13,7 +13,6 @@
 namespace genio {
 namespace {
 
-constexpr double test_level = 0.01;
 constexpr double part_inside = 0.9;  // of an interval
 constexpr double finest = 1e-3;      // standard deviation of z that counts as information
 constexpr double surely = 0.05;      // probability of rest, below which a muscle surely acts

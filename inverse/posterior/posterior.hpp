@@ -40,6 +40,9 @@ struct ActingSummary {
 };
 ActingSummary summarise_acting(const Vector& samples, const Vector& weights, double upper);
 
+/// Probability below which a test says that something is wrong.
+inline constexpr double test_level = 0.01;
+
 /// The chi-square test of a fit, and what it means.
 struct FitTest {
   double chi2_per_dof, tail;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "inverse/posterior/box_integral.hpp"
+#include "inverse/shape/believed.hpp"
 #include "inverse/shape/mirrored.hpp"
 #include "inverse/shape/settled_posterior.hpp"
 
@@ -148,6 +149,7 @@ void summarise_posterior(Objective& objective, const ObjectivePoint& point,
                 "misfit beyond noise (p = {:.1g}), largest at the {}: {:.1f} mm; at maximum: "
                 "{}; at zero: {}",
                 test.tail, where, 1e3 * optimum.residuals.max, list(at_maximum), list(at_zero));
+  doubt_unbelievable(unknowns, prior, z, answer);
 }
 
 }  // namespace genio

@@ -7,7 +7,8 @@
 
 namespace genio {
 
-/// Moves points about `middle`, and says how what is measured of a point follows the pose.
+/// Moves points about `middle`, and says how what is measured of a point follows the pose. Holds
+/// copies, since callers pass poses that they make on the spot.
 class MovedTarget {
  public:
   MovedTarget(const HeadPose& pose, const Vec2& middle) : pose_(pose), middle_(middle) {
@@ -29,8 +30,8 @@ class MovedTarget {
   Vec2 by_turn_twice(const Vec2& moved) const { return middle_ + pose_.shift - moved; }
 
  private:
-  const HeadPose& pose_;
-  const Vec2& middle_;
+  HeadPose pose_;
+  Vec2 middle_;
   Eigen::Matrix2d turn_;
 };
 
