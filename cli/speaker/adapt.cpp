@@ -102,8 +102,9 @@ void write_anatomy_prior(const AdaptedSpeaker& s, const std::string& path) {
 
 AdaptedSpeaker adapted_to_parts(const AdaptCommand& o, const ModelDescription& base) {
   AdaptedSpeaker s{{}, read_outline_modes(o.modes), {}, true};
-  s.estimate = estimate_from_files(s.modes, {o.palate, o.contours});
-  s.adaptation = adapt_model(base, o.model, outline_through(s.estimate->places, o.contours), {});
+  const SightFiles files{o.palate, o.contours};
+  s.estimate = estimate_from_files(s.modes, files);
+  s.adaptation = adapt_model(base, o.model, sighted_outline(*s.estimate, files), {});
   return s;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "speaker/outline/polyline.hpp"
@@ -17,9 +18,14 @@ namespace {
 constexpr double line_step = 10e-3;
 constexpr double shortest_sight = 0.02;                            // [m]
 constexpr double shift_sd = 0.05, turn_sd = std::numbers::pi / 6;  // [m], [rad]
+// A palate trace goes on along the velum as a swallow raises it: anywhere within 2 cm. A contour
+// that goes on past the tongue's line is within 5 mm of its end.
+constexpr double beyond_palate = 0.02, beyond_tongue_sd = 5e-3;
 constexpr int most_passes = 30, pose_unknowns = 3;
 constexpr double settled_pass = 1e-4;  // of any unknown, in its standard deviations
 constexpr std::array turns = {0.0, -0.2, 0.2, -0.4, 0.4, -0.6, 0.6};
+// A trace begins anywhere behind the incisors, and along an arch it slides.
+constexpr std::array slides = {0.0, -0.015, 0.015};  // [m]
 
 Eigen::Matrix2d rotation(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
 
@@ -42,11 +48,12 @@ class Estimator {
     }
   }
 
-  /// From a turn of the head; the cost that is left.
-  double run(double turn) {
+  /// From a turn of the head and a slide along it; the cost that is left.
+  double run(double turn, double slide) {
     const Eigen::Index count = modes_.modes.cols();
     u_ = Vector::Zero(count + pose_unknowns);
     start_pose(turn);
+    u_[count] += slide;
     for (int pass = 0; pass < most_passes; ++pass) {
       const Vector step = newton_step();
       u_ += step;
@@ -105,6 +112,11 @@ class Estimator {
     j.col(k + 2) = Vec2(-x[1], x[0]);
     return j;
   }
+  int known_points() const {
+    return sight_.points
+               ? int(std::count(sight_.points->known.begin(), sight_.points->known.end(), true))
+               : 0;
+  }
   /// Of what goes with no mode.
   Eigen::Matrix2d own_variance(int i) const {
     const Eigen::Matrix2d r = rotation(u_[modes_.modes.cols() + 2]);
@@ -148,7 +160,13 @@ class Estimator {
       for (const Sample& s : samples_) {
         if (s.palate != palate) continue;
         const auto foot = line.foot(s.place);
-        if (foot.s <= 0 || foot.s >= line.length()) continue;  // past the end
+        const bool before = foot.s <= 0, past = foot.s >= line.length();
+        if (palate && past) continue;
+        if (before || past) {
+          const int end = before ? first : first + int(points.size()) - 1;
+          result.push_back({s.place, Vec2::Zero(), end, end, 0, beyond_tongue_sd});
+          continue;
+        }
         const auto above = std::upper_bound(line.arc().begin(), line.arc().end(), foot.s);
         const auto k = size_t(std::clamp<std::ptrdiff_t>(above - line.arc().begin() - 1, 0,
                                                          std::ptrdiff_t(points.size()) - 2));
@@ -191,9 +209,8 @@ class Estimator {
       }
       ++count;
     }
-    // A line that has slid off the outline must not seem to fit.
-    cost_ += 10.0 * double(samples_.size() + (sight_.points ? sight_.points->places.size() : 0)) -
-             10.0 * count;
+    cost_ += double(int(samples_.size()) + known_points() - count) *
+             std::log(beyond_palate / std::sqrt(2 * std::numbers::pi));
     rms_ = std::sqrt(square / std::max(1, count));
     return -hessian_.llt().solve(slope);
   }
@@ -226,11 +243,12 @@ void check_sight(const SpeakerSight& sight) {
 AnatomyEstimate estimate_anatomy(const OutlineModes& modes, const SpeakerSight& sight) {
   check_sight(sight);
   Estimator estimator(modes, sight);
-  double least = 0, best = turns.front();
-  for (double turn : turns)
-    if (const double cost = estimator.run(turn); turn == turns.front() || cost < least)
-      least = cost, best = turn;
-  estimator.run(best);
+  double least = std::numeric_limits<double>::infinity(), best_turn = 0, best_slide = 0;
+  for (double slide : slides)
+    for (double turn : turns)
+      if (const double cost = estimator.run(turn, slide); cost < least)
+        least = cost, best_turn = turn, best_slide = slide;
+  estimator.run(best_turn, best_slide);
   return estimator.result();
 }
 

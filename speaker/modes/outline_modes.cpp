@@ -48,7 +48,7 @@ struct Measure {
 
 /// What guides the first modes, as phoneticians measure heads.
 std::vector<Measure> measures() {
-  const int edge = point_of("palate", 0), arch = point_of("palate", 0.7);
+  const int edge = point_of("palate", 0), arch = point_of("palate", 0.42);
   return {
       {"size", distance_from_middle},
       {"palate_height", arch_height},

@@ -19,7 +19,7 @@ std::vector<OutlineStretch> laid_out() {
                                     {"mandible", 6},
                                     {"mouth_floor", 10},
                                     {"surface", 31},
-                                    {"palate", 13},
+                                    {"palate", 21},
                                     {"hyoid", 1},
                                     {"pharynx", 9}})
     all.push_back({name, first, count}), first += count;

@@ -16,7 +16,7 @@ struct OutlineStretch {
 
 /// The stretches, one after another: floor (hyoid to the mandible), mandible (where the tongue lies
 /// on it), mouth_floor (to the tip), surface (tip to vallecula), palate (from the
-/// incisors 42 mm along its underside), hyoid (its middle) and pharynx.
+/// incisors 70 mm along the underside of palate and velum), hyoid (its middle) and pharynx.
 const std::vector<OutlineStretch>& outline_stretches();
 const OutlineStretch& outline_stretch(const std::string& name);
 int outline_point_count();

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace genio {
 namespace {
 
 constexpr double far_better = 8;  // in log odds
+constexpr double joint = 3e-3;    // over which an estimated palate goes over into a trace [m]
 
 SpeakerSight mirrored_sight(SpeakerSight sight) {
   for (SightedLine& line : sight.lines)
@@ -44,6 +47,17 @@ AnatomyEstimate estimate_from_files(const OutlineModes& modes, const SightFiles&
                     "log odds); expected x to point backwards",
                     files.contours, here.cost - turned.cost));
   return here;
+}
+
+SpeakerOutline sighted_outline(const AnatomyEstimate& estimate, const SightFiles& files) {
+  SpeakerOutline traced, outline = outline_through(estimate.places, files.contours);
+  read_outline_palate(files.palate, traced);
+  std::vector<Vec2> trace = std::move(traced.segments.at(Segment::palate));
+  if (trace.front()[0] > trace.back()[0]) std::reverse(trace.begin(), trace.end());
+  std::vector<Vec2>& palate = outline.segments.at(Segment::palate);
+  std::erase_if(palate, [&](const Vec2& p) { return p[0] > trace.front()[0] - joint; });
+  palate.insert(palate.end(), trace.begin(), trace.end());
+  return outline;
 }
 
 AnatomyEstimate estimate_of_outline(const OutlineModes& modes, const SpeakerOutline& outline) {

@@ -14,6 +14,10 @@ struct SightFiles {
 /// the palate, or the lines fit far better with the face looking the other way.
 AnatomyEstimate estimate_from_files(const OutlineModes& modes, const SightFiles& files);
 
+/// The outline that an estimate makes, from the incisors to where the trace begins; from there on
+/// its palate is the trace, since that was measured.
+SpeakerOutline sighted_outline(const AnatomyEstimate& estimate, const SightFiles& files);
+
 /// What the modes make of a whole outline that lies in a model's frame, its points as they are
 /// known.
 AnatomyEstimate estimate_of_outline(const OutlineModes& modes, const SpeakerOutline& outline);
