@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/option_sets/changed_model.hpp"
+#include "cli/option_sets/measured_options.hpp"
 #include "cli/support.hpp"
 #include "forward/base/elapsed.hpp"
 #include "forward/base/median.hpp"
@@ -19,6 +20,7 @@
 #include "speaker/adaptation/stack_sides.hpp"
 #include "speaker/modes/mode_fields.hpp"
 #include "speaker/modes/modes_file.hpp"
+#include "speaker/modes/recorded_sight.hpp"
 #include "speaker/modes/speaker_sight.hpp"
 
 namespace genio::cli {
@@ -26,7 +28,8 @@ namespace {
 
 struct AdaptCommand {
   std::string model = default_model(), modes = default_modes();
-  std::string outline, speaker, palate, contours, slices, surface, tissue, out;
+  std::string outline, contours, slices, surface, tissue, out;
+  MeasuredOptions measured;  ///< its palate and speaker are an outline's too
   ModelChanges changes;
   bool json = false;
 };
@@ -36,7 +39,9 @@ struct AdaptedSpeaker {
   Adaptation adaptation;
   OutlineModes modes;
   std::optional<AnatomyEstimate> estimate;
-  bool from_parts = false;  ///< the outline is the estimate's, not a measured one
+  bool from_parts = false;             ///< the outline is the estimate's, not a measured one
+  std::optional<int> rest_frame = {};  ///< of a recording, that stands for the rest
+  std::vector<std::string> notes = {};
 };
 
 double mode_sd(const AnatomyEstimate& e, Eigen::Index k) {
@@ -70,6 +75,7 @@ nlohmann::ordered_json adapt_json(const AdaptCommand& o, const AdaptedSpeaker& s
     j["outline_from_parts"] = s.from_parts;
     j["outline_sd_mm"] = outline_sd(*s.estimate) * 1e3;
     j["sight_rms_mm"] = s.estimate->rms * 1e3;
+    if (s.rest_frame) j["rest_frame"] = *s.rest_frame;
   }
   if (a.outline.speaker.empty()) j["speaker"] = nullptr;
   else j["speaker"] = a.outline.speaker;
@@ -100,26 +106,42 @@ void write_anatomy_prior(const AdaptedSpeaker& s, const std::string& path) {
   if (!out) throw InputError(path + ": cannot be written");
 }
 
-AdaptedSpeaker adapted_to_parts(const AdaptCommand& o, const ModelDescription& base) {
+AdaptedSpeaker adapted_to_sight(const AdaptCommand& o, const ModelDescription& base,
+                                const SpeakerSight& sight, const std::string& source) {
   AdaptedSpeaker s{{}, read_outline_modes(o.modes), {}, true};
-  const SightFiles files{o.palate, o.contours};
-  s.estimate = estimate_from_files(s.modes, files);
-  s.adaptation = adapt_model(base, o.model, sighted_outline(*s.estimate, files), {});
+  s.estimate = estimate_as_it_faces(s.modes, sight, source);
+  s.adaptation = adapt_model(base, o.model, sighted_outline(*s.estimate, sight, source), {});
+  return s;
+}
+
+AdaptedSpeaker adapted_to_recording(const AdaptCommand& o, const ModelDescription& base) {
+  std::vector<std::string> notes;
+  const Unregistered seen =
+      read_unregistered(o.measured, [&](const std::string& remark) { notes.push_back(remark); });
+  const RecordedSight sight = sight_of_recording(seen.frames, seen.palate, seen.noise);
+  AdaptedSpeaker s = adapted_to_sight(o, base, sight.sight, o.measured.target);
+  s.rest_frame = sight.frame, s.notes = std::move(notes);
+  s.notes.push_back(
+      fmt::format("{}: the middle of its frames stands for the tongue at rest; frame {} lies "
+                  "nearest to all others",
+                  o.measured.target, sight.frame));
   return s;
 }
 
 AdaptedSpeaker adapted(const AdaptCommand& o, const ModelDescription& base) {
-  if (!o.contours.empty()) return adapted_to_parts(o, base);
+  if (!o.measured.target.empty()) return adapted_to_recording(o, base);
+  if (!o.contours.empty())
+    return adapted_to_sight(o, base, sight_of_files({o.measured.palate, o.contours}), o.contours);
   const std::optional<SpeakerSurface> surface = given_surface(o);
   if (o.outline.empty()) {
     if (o.surface.empty())
       throw InputError(
-          "adapt: expected --outline FILE, --palate FILE with --contours FILE, or --surface FILE "
-          "alone");
+          "adapt: expected --outline FILE, --palate FILE with --target FILE or --contours FILE, or "
+          "--surface FILE alone");
     return {adapt_to_surface(base, o.model, *surface), {}, {}, false};
   }
-  SpeakerOutline outline = read_outline(o.outline, o.speaker);
-  if (!o.palate.empty()) read_outline_palate(o.palate, outline);
+  SpeakerOutline outline = read_outline(o.outline, o.measured.choice.speaker);
+  if (!o.measured.palate.empty()) read_outline_palate(o.measured.palate, outline);
   AdaptedSpeaker s{
       adapt_model(base, o.model, outline, surface), read_outline_modes(o.modes), {}, false};
   s.estimate = estimate_of_outline(s.modes, s.adaptation.outline);
@@ -143,7 +165,7 @@ int run_adapt(const AdaptCommand& o) {
   const ModelDescription base = read_description(o.model);
   AdaptedSpeaker s = adapted(o, base);
   Adaptation& a = s.adaptation;
-  const std::string name = s.from_parts        ? o.contours
+  const std::string name = s.from_parts        ? o.measured.target + o.contours
                            : o.outline.empty() ? o.surface + o.slices
                                                : o.outline;
   if (a) {
@@ -158,6 +180,7 @@ int run_adapt(const AdaptCommand& o) {
       write_anatomy_prior(s, (std::filesystem::path(o.out) / "prior.toml").string());
   }
   if (o.json) fmt::print("{}\n", adapt_json(o, s, watch.seconds()).dump());
+  for (const std::string& note : s.notes) print_line(note);
   for (const std::string& note : a.outline.notes) print_line(name + ": " + note);
   if (!a) print_line(name + ": " + a.message);
   else if (!o.json)
@@ -176,14 +199,28 @@ Runner add_adapt(Options& options) {
   options.add("--model", o->model, "Model folder or model.toml that is adapted");
   options.add("--outline", o->outline,
               "Midsagittal outline (CSV: segment, point, x_cm and y_cm, or x_mm and y_mm)", {});
-  options.add("--speaker", o->speaker, "Whose rows to take, where the file has several speakers",
-              {.only_with = {"--outline"}});
-  options.add("--palate", o->palate, "Palate of the same origin, in the place of the outline's",
+  options.add(
+      "--target", o->measured.target,
+      "A recording of the speaker, as genio invert reads it: the frame that lies nearest to "
+      "all others stands for rest, and what nobody saw is estimated from 41 speakers",
+      {.only_with = {"--palate"}, .not_with = {"--outline", "--surface", "--contours"}});
+  options.add(
+      "--contours", o->contours,
+      "Contours of the tongue at rest in the palate's frame, x backwards, in the place of a "
+      "recording",
+      {.only_with = {"--palate"}, .not_with = {"--outline", "--surface"}});
+  options.add("--palate", o->measured.palate,
+              "Palate of the same origin, in the place of the outline's; of a recording a trace of "
+              "the same session",
               {});
-  options.add("--contours", o->contours,
-              "Contours of the tongue at rest in the palate's frame, x backwards, where no whole "
-              "outline is known; the rest is estimated from 41 speakers",
-              {.only_with = {"--palate"}, .not_with = {"--outline", "--surface"}});
+  options.add("--speaker", o->measured.choice.speaker,
+              "Whose rows to take, where the file has several",
+              {.only_with = {"--outline", "--target"}});
+  const std::vector<std::string> of_recordings = {"--target"};
+  add_reading_options(options, o->measured, of_recordings);
+  add_choice_options(options, o->measured.choice, of_recordings);
+  options.add("--noise-mm", o->measured.noise_mm, "Measurement noise of the recording",
+              {.positive = true, .only_with = of_recordings});
   options.add("--modes", o->modes, "How speakers' outlines vary (data/anatomy/outline_modes.csv)");
   options.add("--slices", o->slices,
               "Closed coronal contours of the tongue in the outline's frame (CSV: slice, point, "

@@ -17,7 +17,7 @@ namespace {
 // What goes with no mode is alike along about a centimetre, so that nearer places tell it once.
 constexpr double line_step = 10e-3;
 constexpr double shortest_sight = 0.02;                            // [m]
-constexpr double shift_sd = 0.05, turn_sd = std::numbers::pi / 6;  // [m], [rad]
+constexpr double shift_sd = 0.05, turn_sd = std::numbers::pi / 9;  // [m], [rad]
 // A palate trace goes on along the velum as a swallow raises it: anywhere within 2 cm. A contour
 // that goes on past the tongue's line is within 5 mm of its end.
 constexpr double beyond_palate = 0.02, beyond_tongue_sd = 5e-3;
@@ -41,6 +41,10 @@ class Estimator {
   Estimator(const OutlineModes& modes, const SpeakerSight& sight) : modes_(modes), sight_(sight) {
     for (const SightedLine& line : sight.lines) {
       if (line.points.size() < 2) continue;
+      if (line.at_points) {
+        for (const Vec2& p : line.points) samples_.push_back({p, line.palate, line.noise});
+        continue;
+      }
       const Polyline drawn(line.points);
       const int count = std::max(1, int(drawn.length() / line_step));
       for (int k = 0; k <= count; ++k)

@@ -13,6 +13,7 @@ struct SightedLine {
   std::vector<Vec2> points;  ///< in turn [m]
   bool palate = false;       ///< else the tongue from the floor of the mouth to the vallecula
   double noise = 5e-4;       ///< standard deviation across the line [m]
+  bool at_points = false;    ///< only its points were measured, not the way between them
 };
 
 /// What was measured of a speaker, all in one frame with x backwards and z up.
@@ -34,7 +35,7 @@ struct AnatomyEstimate {
 };
 
 /// The mode of the posterior and its Gaussian approximation. The modes are independent normal
-/// before the data; where the head was is hardly known (5 cm, 30 degrees), and found from several
+/// before the data; where the head was is hardly known (5 cm, 20 degrees), and found from several
 /// turns. Lines count every 10 mm by their distance across the outline. Throws InputError where
 /// they are too short to tell where the head was: less than 2 cm in all, or less than a palate and
 /// a tongue where no point is known.

@@ -9,6 +9,7 @@ namespace genio {
 namespace {
 
 constexpr int frame_samples = 40, frame_rounds = 6;
+constexpr double hard_palate = 42e-3;  // its underside, from the incisors' edge [m]
 
 /// Samples at equal parts of a line's length.
 std::vector<Vec2> equally_spaced(const std::vector<Vec2>& points) {
@@ -16,6 +17,16 @@ std::vector<Vec2> equally_spaced(const std::vector<Vec2>& points) {
   std::vector<Vec2> samples;
   for (int k = 0; k <= frame_samples; ++k)
     samples.push_back(line.at(line.length() * k / frame_samples));
+  return samples;
+}
+
+/// Samples of the hard palate from the incisors on. Up to the top of the arch would not do: where
+/// a flat arch has its top is chance.
+std::vector<Vec2> hard_part(const std::vector<Vec2>& underside) {
+  const Polyline line(underside);
+  const double length = std::min(hard_palate, line.length());
+  std::vector<Vec2> samples;
+  for (int k = 0; k <= frame_samples; ++k) samples.push_back(line.at(length * k / frame_samples));
   return samples;
 }
 
@@ -94,12 +105,11 @@ namespace {
 /// One step there: what counts as the palate's front depends a little on how the outline is tilted.
 Similarity nearer_frame(const SpeakerOutline& outline, const ModelDescription& model) {
   if (outline.has(Segment::palate) && model.palate) {
-    const std::vector<Vec2> theirs = front_of_palate(outline.segments.at(Segment::palate));
+    const std::vector<Vec2> theirs = underside_of_palate(outline.segments.at(Segment::palate));
     const auto cuts = midsagittal_cut(*model.palate);
     const std::vector<Vec2> ours =
-        cuts.empty() ? std::vector<Vec2>{} : front_of_palate(cuts.front());
-    if (!theirs.empty() && !ours.empty())
-      return rigid_motion(equally_spaced(theirs), equally_spaced(ours));
+        cuts.empty() ? std::vector<Vec2>{} : underside_of_palate(cuts.front());
+    if (!theirs.empty() && !ours.empty()) return rigid_motion(hard_part(theirs), hard_part(ours));
   }
   std::vector<Vec2> ours;
   for (int a : model.midsagittal)

@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iomanip>
 #include <numbers>
 #include <random>
 
@@ -213,17 +212,13 @@ TEST_F(SightOfASpeaker, ItsOutlineHasThePalateAsItWasTraced) {
   const OutlinePoints head = drawn_head(1, 0, 0);
   AnatomyEstimate estimate;
   estimate.places = head.places;
-  const std::string folder = testing::TempDir(), path = folder + "traced_palate.csv";
   std::vector<Vec2> trace;  // from the rear to the front, 1 mm above the estimate
   const OutlineStretch& palate = outline_stretch("palate");
   for (int k = palate.count - 1; k > 7; --k)
     trace.push_back(head.places[size_t(palate.first + k)] + Vec2(0, 1e-3));
-  std::ofstream file(path);
-  file << "point,x_mm,y_mm\n" << std::setprecision(12);
-  for (size_t k = 0; k < trace.size(); ++k)
-    file << k << ',' << 1e3 * trace[k][0] << ',' << 1e3 * trace[k][1] << '\n';
-  file.close();
-  const auto drawn = sighted_outline(estimate, {path, "contours.csv"}).segments.at(Segment::palate);
+  SpeakerSight sight;
+  sight.lines = {{trace, true, 5e-4}};
+  const auto drawn = sighted_outline(estimate, sight, "contours.csv").segments.at(Segment::palate);
   ASSERT_GT(drawn.size(), trace.size());
   const size_t before = drawn.size() - trace.size();
   for (size_t k = 0; k < trace.size(); ++k)
