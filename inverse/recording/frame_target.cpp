@@ -39,6 +39,7 @@ ContourFrame registered(const Model& model, const ContourFrame& frame,
   for (ContourPoint& p : points) {
     const Vec2 moved = transform(Vec2(p.position[0], p.position[2]));
     p.position[0] = moved[0], p.position[2] = moved[1];
+    p.sigma *= transform.scale, p.widening *= transform.scale;  // noise is the device's
   }
   if (std::any_of(points.begin(), points.end(),
                   [](const ContourPoint& p) { return p.kind != "curve"; }))

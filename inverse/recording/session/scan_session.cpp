@@ -152,7 +152,10 @@ AlignedScan align_scan(const Model& model, SessionFile target,
         turn * 180 / std::numbers::pi, most_tilt * 180 / std::numbers::pi));
   AlignedScan result{std::move(target.file), best, reading, judgement};
   for (ContourFrame& frame : result.file.frames)
-    for (ContourPoint& p : frame.points) p.position = best.pose(p.position);
+    for (ContourPoint& p : frame.points) {
+      p.position = best.pose(p.position);
+      p.sigma *= best.pose.scale, p.widening *= best.pose.scale;  // noise is the device's
+    }
   result.file.remarks.push_back(fmt::format("{} ({}); the axes are taken as right-handed",
                                             reading.text(Content::sensors),
                                             options.axes.empty() ? "fits best" : "as said"));

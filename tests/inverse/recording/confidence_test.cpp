@@ -90,6 +90,20 @@ TEST_F(Confidences, TheTargetsNoiseIsWidenedUnlessThePointHasItsOwn) {
   EXPECT_EQ(target.curve[2].sigma, 0.7e-3);
 }
 
+TEST_F(Confidences, NoiseIsTheDevicesAndGoesWithTheScale) {
+  const Model model = read_model(test::generic_model());
+  ContourFrame frame;
+  for (int k = 0; k < 2; ++k) {
+    ContourPoint& p = frame.points.emplace_back();
+    p.position = place_at_rest(model, "dorsum") / 0.8, p.kind = "curve";
+  }
+  frame.points[1].sigma = 0.7e-3;
+  const Target target = make_target(model, registered(model, frame, {.scale = 0.8}), 0.5e-3);
+  ASSERT_EQ(target.curve.size(), 2u);
+  EXPECT_DOUBLE_EQ(target.curve[0].sigma, 0.4e-3);
+  EXPECT_DOUBLE_EQ(target.curve[1].sigma, 0.56e-3);
+}
+
 TEST_F(Confidences, AWidenedPointPullsLess) {
   const Model model = read_model(test::generic_model());
   ContourFrame frame;
