@@ -59,8 +59,8 @@ size_t typical_line(const std::vector<std::vector<Vec2>>& lines) {
   return best;
 }
 
-std::vector<Vec2> middle_line(const std::vector<std::vector<Vec2>>& lines) {
-  const Polyline typical(lines[typical_line(lines)]);
+std::vector<Vec2> middle_line(const std::vector<std::vector<Vec2>>& lines, size_t which) {
+  const Polyline typical(lines[which]);
   std::vector<Polyline> others;
   for (const auto& line : thin(lines, enough_lines)) others.emplace_back(line);
   std::vector<Vec2> middle;
@@ -97,7 +97,6 @@ std::vector<Vec2> ordered_trace(const std::vector<Vec2>& points) {
     result.push_back(here[size_t(upper * double(here.size() - 1))]);
     first = last;
   }
-  std::sort(result.begin(), result.end(), [](const Vec2& a, const Vec2& b) { return a[0] < b[0]; });
   return result;
 }
 
@@ -107,26 +106,25 @@ RecordedSight sight_of_recording(const std::vector<ContourFrame>& frames,
     throw InputError(
         "a speaker's anatomy: expected a palate trace of two points or more (--palate)");
   bool sensors = false;
-  std::vector<std::vector<Vec2>> lines;
-  std::vector<int> numbers;
+  std::vector<std::vector<Vec2>> all;
   size_t most = 0;
   for (const ContourFrame& frame : frames) {
-    std::vector<Vec2> line = line_of(frame, sensors);
-    most = std::max(most, line.size());
-    if (line.size() < 2) continue;
-    lines.push_back(std::move(line)), numbers.push_back(frame.number);
+    all.push_back(line_of(frame, sensors));
+    most = std::max(most, all.back().size());
   }
+  // Frames of which a part was lost tell less and lie near others by chance.
+  std::vector<std::vector<Vec2>> lines;
+  std::vector<int> numbers;
+  for (size_t k = 0; k < all.size(); ++k)
+    if (all[k].size() >= 2 && 2 * all[k].size() >= most)
+      lines.push_back(std::move(all[k])), numbers.push_back(frames[k].number);
   if (lines.empty())
     throw InputError("a speaker's anatomy: no frame has two points of the tongue or more");
-  // Frames of which a part was lost tell less and lie near others by chance.
-  for (size_t k = lines.size(); k-- > 0;)
-    if (2 * lines[k].size() < most)
-      lines.erase(lines.begin() + std::ptrdiff_t(k)),
-          numbers.erase(numbers.begin() + std::ptrdiff_t(k));
+  const size_t typical = typical_line(lines);
   RecordedSight result;
-  result.frame = numbers[typical_line(lines)];
+  result.frame = numbers[typical];
   result.sight.lines = {{ordered_trace(palate), true, noise, false},
-                        {middle_line(lines), false, noise, sensors}};
+                        {middle_line(lines, typical), false, noise, sensors}};
   return result;
 }
 

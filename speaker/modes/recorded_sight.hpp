@@ -11,9 +11,9 @@ namespace genio {
 /// some are looked at. The lines have 2 points or more, and there is at least one.
 size_t typical_line(const std::vector<std::vector<Vec2>>& lines);
 
-/// The middle of all lines: each point of the typical one is moved across it to the median of those
-/// that pass there. Points that fewer than half of them pass are left out.
-std::vector<Vec2> middle_line(const std::vector<std::vector<Vec2>>& lines);
+/// The middle of all lines: each point of the `typical` one is moved across it to the median of
+/// those that pass there. Points that fewer than half of them pass are left out.
+std::vector<Vec2> middle_line(const std::vector<std::vector<Vec2>>& lines, size_t typical);
 
 /// A palate's points from front to back, [m]. A trace is in turn already. Of a sweep, which runs
 /// to and fro and leaves the palate at times, the upper points of every 3 mm are taken together.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "speaker/outline/polyline.hpp"
 
@@ -11,20 +12,11 @@ namespace {
 constexpr int frame_samples = 40, frame_rounds = 6;
 constexpr double hard_palate = 42e-3;  // its underside, from the incisors' edge [m]
 
-/// Samples at equal parts of a line's length.
-std::vector<Vec2> equally_spaced(const std::vector<Vec2>& points) {
+/// Samples at equal parts of a line, of its whole length or of that much of it [m].
+std::vector<Vec2> equally_spaced(const std::vector<Vec2>& points,
+                                 double most = std::numeric_limits<double>::infinity()) {
   const Polyline line(points);
-  std::vector<Vec2> samples;
-  for (int k = 0; k <= frame_samples; ++k)
-    samples.push_back(line.at(line.length() * k / frame_samples));
-  return samples;
-}
-
-/// Samples of the hard palate from the incisors on. Up to the top of the arch would not do: where
-/// a flat arch has its top is chance.
-std::vector<Vec2> hard_part(const std::vector<Vec2>& underside) {
-  const Polyline line(underside);
-  const double length = std::min(hard_palate, line.length());
+  const double length = std::min(most, line.length());
   std::vector<Vec2> samples;
   for (int k = 0; k <= frame_samples; ++k) samples.push_back(line.at(length * k / frame_samples));
   return samples;
@@ -109,7 +101,9 @@ Similarity nearer_frame(const SpeakerOutline& outline, const ModelDescription& m
     const auto cuts = midsagittal_cut(*model.palate);
     const std::vector<Vec2> ours =
         cuts.empty() ? std::vector<Vec2>{} : underside_of_palate(cuts.front());
-    if (!theirs.empty() && !ours.empty()) return rigid_motion(hard_part(theirs), hard_part(ours));
+    // Not up to the top of the arch: where a flat arch has its top is chance.
+    if (!theirs.empty() && !ours.empty())
+      return rigid_motion(equally_spaced(theirs, hard_palate), equally_spaced(ours, hard_palate));
   }
   std::vector<Vec2> ours;
   for (int a : model.midsagittal)
